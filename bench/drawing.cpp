@@ -17,7 +17,7 @@
 namespace drape {
 namespace {
 
-constexpr int count = 20;  // frames that are drawn, evenly spread over the film
+constexpr int count = 20;  // drawn frames, evenly spread over the film
 
 struct DrawnFilm {
   Scene scene;
@@ -56,7 +56,7 @@ Subject make_drawing(const std::shared_ptr<DrawnFilm>& film, bool lit) {
     look.translucency = 0;
   }
   const SimulationSettings& settings = film->scene.simulation;
-  // Never deleted: benchmarks are when the process ends, after Mesa has cleaned up.
+  // Never deleted: benchmarks are destroyed when the process ends, after Mesa has cleaned up.
   auto* renderer = new Renderer(data_folder(), film->scene.video.size, film->view, look, settings.cloth.vertex_count(),
                                 settings.cloth.triangles, film->scene.uvs);
   return {.restore = [] {},

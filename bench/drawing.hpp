@@ -5,8 +5,8 @@
 
 namespace drape {
 
-/// Registers the drawing of a frame with all that a look has by default, and with shadows, ambient occlusion and
-/// translucency switched off, as CASE/with and CASE/without. Returns the names of the cases.
+/// Registers the drawing of a frame with the default look, and without shadows, ambient occlusion and translucency, as
+/// CASE/with and CASE/without. Returns the names of the cases.
 std::vector<std::string> register_drawing();
 
 }  // namespace drape

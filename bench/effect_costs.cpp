@@ -25,14 +25,14 @@ namespace {
 constexpr int steps = 10;
 constexpr double step = 0.01;  // [s]
 
-/// An effect, on a cloth of so many cells along each side.
+/// An effect on a cloth of `cells`×`cells` cells.
 struct Case {
   std::string name;
   Effect effect;
   Cloth (*cloth)(int cells);
 };
 
-/// The same, which changes its shape in every step.
+/// Makes the cushion of make_cushion() with a shape that changes in every step.
 Body make_breathing_cushion() {
   Body body = make_cushion();
   MeshMotion motion = *body.mesh;

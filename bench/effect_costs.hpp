@@ -5,8 +5,8 @@
 
 namespace drape {
 
-/// Registers, for every effect of the registry that costs anything, a step of liu13 with it and the same step without
-/// it, as CASE/with and CASE/without. Returns the names of the cases.
+/// Registers a step of liu13 with and without each effect of the registry that takes time, as CASE/with and
+/// CASE/without. Returns the names of the cases.
 std::vector<std::string> register_effect_costs();
 
 }  // namespace drape

@@ -20,7 +20,7 @@
 namespace drape {
 namespace {
 
-/// The first hundred frames of the homework's fourth film, drawn once for both.
+/// The first hundred frames of the homework's fourth film, drawn once for both encoders.
 const std::vector<Image>& film() {
   static const std::vector<Image> images = [] {
     const Scene scene = load_scene(data_folder() / "scenes/homework/4.toml", {});

@@ -5,7 +5,7 @@
 
 namespace drape {
 
-/// Registers what a frame of a film takes as a GIF: CASE/drape, from the picture to the file that was read back, and
+/// Registers the encoding of a film's frame as a GIF: CASE/drape, from the picture to the verified file, and
 /// CASE/ffmpeg, palettegen and paletteuse in memory. Returns the names of the cases.
 std::vector<std::string> register_encoding();
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int cells = 20;
 constexpr double step = 0.02;  // h [s]
-// Of the textbook's motion from rest: over the sphere, the cloth touches it from the first of these steps on.
+// Steps of the textbook's motion from rest. Over the sphere, the cloth touches it from the first of them on.
 constexpr int first_step = 30, last_step = 130, every = 5;
 constexpr int measured_steps = (last_step - first_step) / every;
 
@@ -27,7 +27,7 @@ struct Comparison {
   bool sphere;
 };
 
-/// Where the textbook's steps begin and how far from balance they leave the cloth.
+/// Initial states of the textbook's steps, and the residuals that they reach.
 struct Reference {
   std::vector<State> states;
   std::vector<double> residuals;  ///< ‖∇g‖ [N]
@@ -79,7 +79,7 @@ Sphere textbook_sphere() {
   return {.center = sphere.center, .radius = sphere.radius, .scale = sphere.scale, .stiffness = sphere.stiffness};
 }
 
-/// One simulation for every step: each has its own residual to reach.
+/// Makes one simulation per step, because each step has its own target residual.
 Subject make_drape(const Comparison& c) {
   const auto reference = std::make_shared<Reference>(make_reference(c));
   const auto simulations = std::make_shared<std::vector<std::unique_ptr<Simulation>>>();

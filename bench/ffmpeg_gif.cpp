@@ -42,7 +42,7 @@ Owned<AVFilterGraph> make_graph(const std::string& description) {
   return graph;
 }
 
-/// A frame with an alpha channel, as both filters take it.
+/// Makes a frame with an alpha channel, as both filters require.
 Owned<AVFrame> rgb32_frame(const Image& image, int number) {
   Owned<AVFrame> frame(av_frame_alloc());
   frame->format = AV_PIX_FMT_RGB32;
@@ -64,7 +64,7 @@ void push(const Owned<AVFilterGraph>& graph, const char* input, AVFrame* frame) 
   check(av_buffersrc_add_frame_flags(avfilter_graph_get_filter(graph.get(), input), frame, AV_BUFFERSRC_FLAG_PUSH));
 }
 
-/// Nothing if the graph has none yet, or none any more.
+/// Returns the graph's next frame; null if it has none yet, or none any more.
 Owned<AVFrame> pull(const Owned<AVFilterGraph>& graph) {
   Owned<AVFrame> frame(av_frame_alloc());
   const int result = av_buffersink_get_frame(avfilter_graph_get_filter(graph.get(), "buffersink@out"), frame.get());
@@ -86,7 +86,7 @@ Owned<AVFrame> make_palette(const std::vector<Image>& film, int fps) {
   return pull(graph);
 }
 
-/// A GIF that is being written to memory.
+/// A GIF in memory that is being written.
 class Writer {
  public:
   Writer(int width, int height, int fps) : packet_(av_packet_alloc()) {
@@ -107,7 +107,7 @@ class Writer {
     check(avformat_write_header(format, nullptr));
   }
 
-  /// Nothing: no frame follows.
+  /// Appends a frame; null ends the film.
   void add(const AVFrame* frame) {
     check(avcodec_send_frame(codec_.get(), frame));
     while (avcodec_receive_packet(codec_.get(), packet_.get()) == 0) {

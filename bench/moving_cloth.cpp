@@ -12,7 +12,7 @@ namespace {
 constexpr int coarse_cells = 20;
 constexpr double stiffness = 180;  // [N/m]
 
-/// Values at the vertices of the coarse grid to those of a grid of cells×cells, bilinearly.
+/// Interpolates vertex values of the coarse grid bilinearly onto a grid of cells×cells.
 Vertices interpolate(const Eigen::MatrixXd& coarse, int cells) {
   const int stride = coarse_cells + 1, scale = cells / coarse_cells;
   Vertices fine((cells + 1) * (cells + 1), 3);

@@ -15,7 +15,7 @@ double median(std::vector<double> samples) {
   return samples.size() % 2 == 1 ? samples[middle] : (samples[middle - 1] + samples[middle]) / 2;
 }
 
-/// A median with half the range of the middle half of its samples, which one disturbed sample does not move.
+/// Formats a median with half the interquartile range, which a single disturbed sample does not change.
 std::string time_cell(std::vector<double> samples) {
   if (samples.empty()) return "–";
   std::sort(samples.begin(), samples.end());

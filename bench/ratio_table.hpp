@@ -9,14 +9,14 @@
 
 namespace drape {
 
-/// Cases that are each measured by the same two, in the order of the rows.
+/// A table of cases measured for the same two subjects, in the order of the rows.
 struct RatioTable {
   std::string first, second;
-  std::vector<std::string> cases;  ///< those that were not measured are left out
+  std::vector<std::string> cases;  ///< unmeasured ones are left out
 };
 
-/// Prints tables in Markdown: for each case the medians over the repetitions of both, and their ratio. Reads benchmarks
-/// named "CASE/FIRST" and "CASE/SECOND" whose unit is the microsecond.
+/// Prints Markdown tables: for each case the medians over the repetitions of both subjects, and their ratio. Reads
+/// benchmarks named "CASE/FIRST" and "CASE/SECOND" in microseconds.
 class RatioReporter final : public benchmark::BenchmarkReporter {
  public:
   explicit RatioReporter(std::vector<RatioTable> tables) : tables_(std::move(tables)) {}
@@ -30,7 +30,7 @@ class RatioReporter final : public benchmark::BenchmarkReporter {
   void print(const RatioTable& table);
 
   std::vector<RatioTable> tables_;
-  std::map<std::string, std::map<std::string, Samples>> samples_;  ///< of a case, by who ran it
+  std::map<std::string, std::map<std::string, Samples>> samples_;  ///< by case and subject
 };
 
 }  // namespace drape

@@ -1,4 +1,4 @@
-// Times the three methods, drape's beside the textbook's, in one process, on a cloth in motion.
+// Times steps of the three methods on a moving cloth, drape's beside the textbook's, in one process.
 // Flags are Google Benchmark's, for example --benchmark_filter=liu13 or --benchmark_out=steps.json.
 
 #include <benchmark/benchmark.h>
@@ -25,7 +25,7 @@
 namespace drape {
 namespace {
 
-/// What one row measures: `batch` steps of semi-implicit Euler, or one step of `batch` iterations of another method.
+/// Work of one row: `batch` steps of semi-implicit Euler, or one step of `batch` iterations of another method.
 /// Batches are sized to last a few milliseconds at least.
 struct Case {
   std::string name;
@@ -36,7 +36,7 @@ struct Case {
 };
 
 const std::vector<Case>& cases() {
-  // Semi-implicit Euler is stable only where the step shrinks with the cells.
+  // Semi-implicit Euler is stable only if the step shrinks with the cells.
   static const std::vector<Case> all{
       {"semi_implicit_step/20", Method::semi_implicit, 20, 0.001, 500},
       {"semi_implicit_step/100", Method::semi_implicit, 100, 0.0002, 20},
@@ -49,10 +49,10 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-/// The tolerance that no iteration meets, so that a step does its whole batch.
+/// Tolerance that no iteration meets, so that a step does its whole batch.
 constexpr double never = 0;
 
-/// @param step does one step and returns its iterations, which semi-implicit Euler has none of: its batch is of steps
+/// @param step does one step and returns its iterations; semi-implicit Euler has none, so its batch counts steps
 template <class Step>
 std::function<int()> make_run(const Case& c, Step step) {
   if (c.method != Method::semi_implicit) return step;
@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> encoding = drape::register_encoding();
   std::vector<std::string> factoring = drape::register_factoring();
 
-  // Ours first, so that the caller's own flags win.
+  // Defaults come first, so that the caller's flags override them.
   std::vector<std::string> defaults{"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=11"};
   std::vector<char*> arguments{argv[0]};
   for (std::string& flag : defaults) arguments.push_back(flag.data());

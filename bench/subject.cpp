@@ -9,12 +9,12 @@
 namespace drape {
 
 void register_subject(const std::string& name, const std::string& who, int expected, std::function<Subject()> make) {
-  // Repetitions share the subject.
+  // All repetitions share the subject.
   const auto subject = std::make_shared<Subject>();
   const auto measure = [expected, make = std::move(make), subject](benchmark::State& state) {
     if (!subject->run) *subject = make();
     subject->restore();
-    subject->run();  // warms the caches that the benchmark before this one has filled
+    subject->run();  // fills the caches again after the previous benchmark
     for (auto _ : state) {
       subject->restore();
       const std::clock_t start = std::clock();

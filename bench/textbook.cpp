@@ -17,7 +17,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 Vector3d between(const MatrixXd& x, const Spring& spring) { return x.row(spring.i) - x.row(spring.j); }
 
-/// n×3 to 3n: x₀ y₀ z₀ x₁ y₁ z₁ …
+/// Converts n×3 to 3n: x₀ y₀ z₀ x₁ y₁ z₁ …
 VectorXd flatten(const MatrixXd& x) {
   const MatrixXd transposed = x.transpose();
   return Eigen::Map<const VectorXd>(transposed.data(), transposed.size());
@@ -25,7 +25,7 @@ VectorXd flatten(const MatrixXd& x) {
 
 MatrixXd unflatten(const VectorXd& x) { return Eigen::Map<const MatrixXd>(x.data(), 3, x.size() / 3).transpose(); }
 
-/// S with x_free = S x, of the 3n coordinates.
+/// Returns S with x_free = S x, for the 3n coordinates.
 SparseMatrix selection_matrix(const std::vector<bool>& pinned) {
   Triplets triplets;
   int row = 0;
@@ -38,7 +38,7 @@ SparseMatrix selection_matrix(const std::vector<bool>& pinned) {
   return selection;
 }
 
-/// ∇E, n×3 [N].
+/// Computes ∇E, n×3 [N].
 MatrixXd elastic_gradient(const Cloth& cloth, const MatrixXd& x) {
   MatrixXd gradient = MatrixXd::Zero(x.rows(), 3);
   for (const Spring& spring : cloth.springs) {
@@ -53,7 +53,7 @@ MatrixXd elastic_gradient(const Cloth& cloth, const MatrixXd& x) {
   return gradient;
 }
 
-/// ∇g = M(x−y)/h² + ∇E(x), n×3 [N].
+/// Computes ∇g = M(x−y)/h² + ∇E(x), n×3 [N].
 MatrixXd objective_gradient(const Cloth& cloth, double h, const MatrixXd& x, const MatrixXd& y) {
   return cloth.masses.asDiagonal() * (x - y) / (h * h) + elastic_gradient(cloth, x);
 }
@@ -104,7 +104,7 @@ class Newton final : public Stepper {
     return k * along + k * (1 - rest / length) * (Matrix3d::Identity() - along);
   }
 
-  /// M/h² + Σ of the springs' Hessians, 3n×3n [N/m].
+  /// Assembles M/h² + Σ of the springs' Hessians, 3n×3n [N/m].
   [[nodiscard]] SparseMatrix objective_hessian(const MatrixXd& x) const {
     Triplets triplets;
     triplets.reserve(3 * static_cast<std::size_t>(cloth_.masses.size()) + 36 * cloth_.springs.size());
@@ -183,7 +183,7 @@ class Liu13 final : public Stepper {
   }
 
  private:
-  /// d, 3m [m]: each spring at its rest length in its present direction.
+  /// Returns d, 3m [m]: each spring at its rest length in its current direction.
   [[nodiscard]] VectorXd rest_vectors(const VectorXd& x) const {
     VectorXd d(3 * static_cast<Index>(cloth_.springs.size()));
     Index row = 0;

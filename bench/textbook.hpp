@@ -7,8 +7,8 @@
 
 #include "sim/cloth.hpp"
 
-/// The three methods written plainly from their formulas, with general-purpose matrices: what drape's solvers are
-/// measured against, and an independent check of what they compute.
+/// Plain implementations of the three methods from their formulas, with general-purpose matrices: the reference that
+/// drape's solvers are measured against, and an independent check of their results.
 namespace drape::textbook {
 
 /// A sphere that pushes: a = stiffness · max(scale·radius − ‖x−center‖, 0) · (x−center)/‖x−center‖ [m/s²].
@@ -19,8 +19,8 @@ struct Sphere {
   double stiffness = 8000;  ///< [1/s²]
 };
 
-/// What Newton's method takes for the Hessian of a compressed spring, with x the vector between its ends, shorter than
-/// the rest length L. The exact one, k x̂x̂ᵀ + k(1−L/‖x‖)(I − x̂x̂ᵀ), has negative eigenvalues there.
+/// Hessian that Newton's method uses for a compressed spring, where x joins its ends and is shorter than the rest
+/// length L. The exact one, k x̂x̂ᵀ + k(1−L/‖x‖)(I − x̂x̂ᵀ), has negative eigenvalues there.
 enum class CompressedHessian {
   projected,  ///< k x̂x̂ᵀ: the exact one without its negative eigenvalues
   scaled      ///< k (L/‖x‖) x̂x̂ᵀ
@@ -28,7 +28,7 @@ enum class CompressedHessian {
 
 struct Settings {
   double step = 0.02;                   ///< h [s]
-  double damping = 1;                   ///< what is left of a velocity after one second
+  double damping = 1;                   ///< fraction of a velocity that remains after one second
   Eigen::Vector3d gravity{0, 0, -9.8};  ///< [m/s²]
   std::optional<Sphere> sphere = std::nullopt;
   double tolerance = 1e-3;                           ///< ε [m], on the 2-norm of the change of all unknowns together
@@ -36,7 +36,7 @@ struct Settings {
   CompressedHessian compressed = CompressedHessian::projected;
 };
 
-/// A cloth and the method that moves it. The state may be set between steps.
+/// A cloth with a time-stepping method. The state may be set between steps.
 class Stepper {
  public:
   virtual ~Stepper() = default;
@@ -45,7 +45,7 @@ class Stepper {
   Eigen::MatrixXd positions;   ///< n×3 [m]
   Eigen::MatrixXd velocities;  ///< n×3 [m/s]
   int iterations = 0;          ///< linear solves in the last step
-  /// y = xₙ + h vₙ + h² M⁻¹ f_ext of the last step, n×3 [m]; empty where the method has none.
+  /// y = xₙ + h vₙ + h² M⁻¹ f_ext of the last step, n×3 [m]; empty if the method has none.
   Eigen::MatrixXd inertial_positions;
 
  protected:
@@ -59,21 +59,21 @@ class Stepper {
   std::vector<bool> pinned_;  ///< n
 };
 
-/// v += h a, v *= d^h, x += h v.
+/// Makes semi-implicit Euler: v += h a, v *= d^h, x += h v.
 std::unique_ptr<Stepper> make_semi_implicit(const Cloth& cloth, const Settings& settings);
 
-/// Newton's method on g(x) = 1/(2h²)‖x−y‖²_M + E(x), from x = y, with full steps; the matrix is assembled, analysed and
-/// factored in every iteration.
+/// Makes Newton's method on g(x) = 1/(2h²)‖x−y‖²_M + E(x), from x = y, with full steps; assembles, analyses and factors
+/// the matrix in every iteration.
 std::unique_ptr<Stepper> make_newton(const Cloth& cloth, const Settings& settings);
 
-/// Liu, Bargteil, O'Brien, Kavan: Fast Simulation of Mass-Spring Systems (2013), section 4: from x = y, alternates
-/// dᵢ = Lᵢ x̂ᵢ with (M + h²L) x = h² J d + M y, whose 3n×3n matrix is factored once.
+/// Makes the method of Liu, Bargteil, O'Brien, Kavan: Fast Simulation of Mass-Spring Systems (2013), section 4: from
+/// x = y, alternates dᵢ = Lᵢ x̂ᵢ with (M + h²L) x = h² J d + M y, whose 3n×3n matrix is factored once.
 std::unique_ptr<Stepper> make_liu13(const Cloth& cloth, const Settings& settings);
 
-/// ‖∇g‖ over the unpinned vertices at the end of the stepper's last step [N].
+/// Computes ‖∇g‖ over the unpinned vertices at the end of the stepper's last step [N].
 double gradient_norm(const Cloth& cloth, const Settings& settings, const Stepper& stepper);
 
-/// [J], gravity = −Σ m g·x.
+/// Energies [J], with gravity = −Σ m g·x.
 struct Energies {
   double kinetic = 0, gravity = 0, elastic = 0;
   [[nodiscard]] double total() const { return kinetic + gravity + elastic; }

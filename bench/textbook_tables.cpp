@@ -1,4 +1,4 @@
-// Reruns the homework's tables with the textbook methods and prints their iteration counts beside the homework's.
+// Recomputes the homework's tables with the textbook methods and prints their iteration counts beside the homework's.
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,8 @@ Cloth homework_cloth(double stiffness) {
 
 struct Motion {
   double mean_iterations = 0;
-  double nearest = std::numeric_limits<double>::infinity();  ///< of any vertex to the sphere's centre, at any step [m]
+  double nearest = std::numeric_limits<double>::infinity();  ///< least distance of any vertex from the sphere's centre
+                                                             ///< in all steps [m]
   std::vector<double> gradient_norms;                        ///< at the end of each step, ascending [N]
   std::vector<Eigen::RowVector3d> last_vertex;               ///< after each step [m]
 };
@@ -84,7 +85,7 @@ void print_table_2() {
       "7.07 to 8.59");
 }
 
-/// How far from a minimum Newton's method stops: what another solver must reach to be compared with it.
+/// Prints the residuals at which Newton's method stops: the targets for comparable solvers.
 void print_gradient_norms(const std::string& name, const Motion& motion) {
   double sum = 0;
   for (const double norm : motion.gradient_norms) sum += norm;

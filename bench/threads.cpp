@@ -1,5 +1,5 @@
-// What several threads gain: bench/drape_threads [CELLS…], as Markdown. Wall-clock times, so the machine must be idle;
-// each is the least of several rounds, in which the numbers of threads take turns.
+// Measures the speedup by threads: bench/drape_threads [CELLS…], as Markdown. Times are wall times, so the machine must
+// be idle. Each is the least of several rounds, in which the numbers of threads alternate.
 
 #include <fmt/format.h>
 
@@ -28,17 +28,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int fewest_rounds = 9;
-constexpr double shortest = 2;  // of all rounds together [s]
-constexpr double turn = 0.05;   // of one number of threads: until all of them are awake, and then some [s]
+constexpr double shortest = 2;  // least total time of all rounds [s]
+constexpr double turn = 0.05;   // time of one number of threads per round, long enough to wake all of them [s]
 
-/// The seconds that it takes to call this.
+/// Measures the wall time of a call [s].
 double seconds_of(const auto& run) {
   const auto begin = Clock::now();
   run();
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// 1, 2, 4, … and all that the machine has.
+/// Returns 1, 2, 4, … and the number of hardware threads.
 std::vector<int> thread_counts() {
   const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::vector<int> counts;
@@ -47,7 +47,7 @@ std::vector<int> thread_counts() {
   return counts;
 }
 
-/// A row of the table: the least seconds by each number of threads, and what the first is of them.
+/// Formats a row of the table: the least time by each number of threads, and the speedups.
 std::string row(const std::string& name, const std::vector<double>& seconds, int batch) {
   std::string text = fmt::format("| {} |", name);
   for (const double each : seconds) text += fmt::format(" {:.4g} |", 1e6 * each / batch);
@@ -55,7 +55,7 @@ std::string row(const std::string& name, const std::vector<double>& seconds, int
   return text;
 }
 
-/// @param make makes what is run, for a number of threads
+/// @param make makes the function to time, for a number of threads
 template <class Make>
 std::vector<double> measure(const Make& make) {
   std::vector<decltype(make(1))> subjects;
@@ -74,8 +74,8 @@ std::vector<double> measure(const Make& make) {
   return least;
 }
 
-/// The numbers of a mesh's vertices exchanged with others nearby, as somebody else's program may have left them: no two
-/// springs of the cloth are alike.
+/// Shuffles vertex numbers among nearby vertices, as in a mesh from another program: the cloth has no regular pattern
+/// of springs.
 Cloth irregular(Cloth cloth) {
   constexpr std::size_t nearby = 1000;
   std::vector<int> places(static_cast<std::size_t>(cloth.vertex_count()));
@@ -108,7 +108,7 @@ Cloth irregular(Cloth cloth) {
 struct Case {
   const char* name;
   Method method;
-  int batch;  ///< iterations of its one step, or steps of one that has none
+  int batch;  ///< iterations of its one step, or steps of a method without iterations
   bool irregular = false;
   LinearSolver linear_solver = LinearSolver::automatic;
 };
@@ -124,7 +124,7 @@ std::string row_of(const Case& c, int cells) {
   SimulationSettings settings{.cloth = make_moving_cloth(cells), .effects = {Gravity{}}};
   if (c.irregular) settings.cloth = irregular(std::move(settings.cloth));
   settings.step = c.method == Method::semi_implicit ? 0.02 / cells : 0.02;
-  // A tolerance that no iteration meets.
+  // No iteration meets this tolerance.
   settings.integrator = {.method = c.method,
                          .stop = StoppingRule::change,
                          .tolerance = 0,
@@ -141,7 +141,7 @@ std::string row_of(const Case& c, int cells) {
   return row(fmt::format("{}, {}²", c.name, cells), seconds, c.batch);
 }
 
-/// A step of liu13 of one iteration with something that the cloth touches.
+/// A step of liu13 with one iteration, with an obstacle that the cloth touches.
 struct Touch {
   const char* name;
   Effect with;

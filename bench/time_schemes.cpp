@@ -14,7 +14,7 @@ namespace {
 
 constexpr double duration = 0.42;  // from rest [s]
 
-/// A method with the longest step and the loosest tolerance whose motion is as near to the true one as asked.
+/// A method with the longest step and the loosest tolerance that keep the requested error.
 struct Integration {
   StepMethod method;
   int steps;               ///< of the whole motion
@@ -27,7 +27,7 @@ struct EqualError {
   Integration second_order, first_order;
 };
 
-/// The errors are those of every vertex at the end; tests/physics/order_test.cpp holds them.
+/// Methods of equal error, taken over all vertices at the end; tests/physics/order_test.cpp verifies the errors.
 const std::vector<EqualError>& equal_errors() {
   static const std::vector<EqualError> all{
       {"scene_3_to_1_mm", 180, 1, {{Method::quasi_newton, TimeScheme::sdirk2}, 168, 1e-5}, {Method::liu13, 3500}},

@@ -5,8 +5,8 @@
 
 namespace drape {
 
-/// Registers what a motion of the homework's costs that is no further from the true one than an error, by the schemes
-/// of second order and of first; returns the cases.
+/// Registers a motion of the homework computed to a given error, by schemes of second and of first order; returns the
+/// cases.
 std::vector<std::string> register_time_schemes();
 
 }  // namespace drape

@@ -5,14 +5,14 @@
 
 namespace drape {
 
-/// The cloth of make_moving_cloth at rest, laid down in four layers 12 mm apart: with self-collision of that thickness
-/// as many contacts as there can be.
+/// Makes the cloth of make_moving_cloth at rest, folded into four layers 12 mm apart: with self-collision of that
+/// thickness it has as many contacts as possible.
 Cloth make_folded_cloth(int cells);
 
-/// A cushion under all of that cloth, of 10 000 triangles.
+/// Makes a cushion of 10 000 triangles under the whole cloth.
 Body make_cushion();
 
-/// The same cloth at rest on the cushion.
+/// Makes the cloth at rest on the cushion.
 Cloth make_lying_cloth(int cells);
 
 }  // namespace drape

@@ -1,12 +1,12 @@
-# drape_add_check(NAME SCENE [OPTION...]): a test of CTest that passes where drape check finds the scene as its golden. The report
-# is in drape-check/NAME below the build folder. The label is "drape". A relative scene is in the current source folder.
+# drape_add_check(NAME SCENE [OPTION...]): adds a CTest test that passes if drape check finds the scene equal to its golden. The
+# report is in drape-check/NAME below the build folder. The label is "drape". A relative scene is in the current source folder.
 #
 #   include(path/to/DrapeCheck.cmake)   # or find_package(drape), which includes it
 #   enable_testing()
 #   drape_add_check(flag scenes/flag.toml)
 #   drape_add_check(drop scenes/drop.toml --motion-tolerance 1e-5)
 #
-# The program is that of the variable DRAPE_EXECUTABLE, or drape on the PATH.
+# The program is named by the variable DRAPE_EXECUTABLE; otherwise it is drape on the PATH.
 function(drape_add_check name scene)
   find_program(DRAPE_EXECUTABLE drape DOC "The program that checks scenes")
   if(NOT DRAPE_EXECUTABLE)

@@ -20,7 +20,7 @@ import urllib.request
 
 RUNS_KEPT = 20
 SCENES_SHOWN = 20
-LONGEST_COMMENT = 60_000  # GitHub takes 65 536 characters
+LONGEST_COMMENT = 60_000  # GitHub's limit is 65 536 characters
 
 
 def warn(message):
@@ -95,7 +95,7 @@ def push_pictures(shown, folder, token):
     run = f"{int(os.environ['GITHUB_RUN_ID']):012d}-{os.environ.get('GITHUB_RUN_ATTEMPT', '1')}-{os.environ['NAME']}"
     remote = f"{server}/{repository}.git"
     error = ""
-    for _ in range(5):  # another job may push meanwhile
+    for _ in range(5):  # another job may push at the same time
         with tempfile.TemporaryDirectory() as place:
             git = Git(place, token)
             git("init", "--quiet")
@@ -194,7 +194,7 @@ def main():
     try:
         report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     except FileNotFoundError:
-        report = {"passed": False, "scenes": []}  # the check ended before it had judged anything, and has said why
+        report = {"passed": False, "scenes": []}  # the check ended before any verdict, and has printed the reason
         text = text or "### drape check: ended without a report\n"
     token = os.environ.get("TOKEN", "")
     shown = changed_pictures(report, folder)

@@ -52,7 +52,7 @@ def drape_check(request):
     def check(scene, *options):
         __tracebackhide__ = True
         file = config.invocation_params.dir / scene
-        # A folder for each scene and test: tests may run at the same time, or check a scene twice.
+        # One folder per scene and test: tests may run in parallel, or check a scene twice.
         name = re.sub(r"[^\w.-]+", "-", f"{request.node.nodeid}-{pathlib.Path(scene).stem}")
         report = config.invocation_params.dir / config.getoption("--drape-report") / name
         code, text = run_check(program, file, report, ["--update", config.getoption("--drape-update"), *options])

@@ -9,6 +9,7 @@
 
 #include "audit/report/page.hpp"
 #include "audit/report/table.hpp"
+#include "cli/background_work.hpp"
 #include "cli/command_line.hpp"
 #include "cli/interruption.hpp"
 #include "cli/line_option.hpp"
@@ -16,7 +17,6 @@
 #include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/terminal.hpp"
-#include "cli/background_work.hpp"
 #include "core/atomic_file.hpp"
 #include "core/console.hpp"
 #include "core/shell.hpp"

@@ -5,10 +5,10 @@
 
 #include "check/check_scene.hpp"
 #include "check/golden_folder.hpp"
+#include "cli/background_work.hpp"
 #include "cli/command_line.hpp"
 #include "cli/frame_list.hpp"
 #include "cli/motion_runs.hpp"
-#include "cli/background_work.hpp"
 #include "core/console.hpp"
 #include "core/text.hpp"
 

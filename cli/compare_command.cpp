@@ -5,6 +5,7 @@
 #include <memory>
 #include <tuple>
 
+#include "cli/background_work.hpp"
 #include "cli/command_line.hpp"
 #include "cli/film_times.hpp"
 #include "cli/frame_list.hpp"
@@ -19,7 +20,6 @@
 #include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
-#include "cli/background_work.hpp"
 #include "compare/compare_scenes.hpp"
 #include "core/shell.hpp"
 #include "core/text.hpp"

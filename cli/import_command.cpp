@@ -4,12 +4,12 @@
 #include <memory>
 #include <string>
 
+#include "cli/background_work.hpp"
 #include "cli/command_line.hpp"
 #include "cli/interruption.hpp"
 #include "cli/line_option.hpp"
 #include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
-#include "cli/background_work.hpp"
 #include "core/atomic_file.hpp"
 #include "core/console.hpp"
 #include "core/error.hpp"

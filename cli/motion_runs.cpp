@@ -7,9 +7,9 @@
 #include <charconv>
 #include <filesystem>
 
+#include "cli/background_work.hpp"
 #include "cli/film_times.hpp"
 #include "cli/scene_files.hpp"
-#include "cli/background_work.hpp"
 #include "core/build_info.hpp"
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"

@@ -2,10 +2,10 @@
 
 #include <optional>
 
+#include "cli/background_work.hpp"
 #include "cli/command_line.hpp"
 #include "cli/run_arguments.hpp"
 #include "cli/step_by_step.hpp"
-#include "cli/background_work.hpp"
 #include "run/run_scene.hpp"
 #include "run/slow_run_warning.hpp"
 #include "scene/scene.hpp"

@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
+#include "cli/background_work.hpp"
 #include "cli/line_option.hpp"
 #include "cli/number_option.hpp"
 #include "cli/studies.hpp"
-#include "cli/background_work.hpp"
 #include "core/atomic_file.hpp"
 #include "core/console.hpp"
 #include "core/text.hpp"

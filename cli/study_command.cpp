@@ -4,11 +4,11 @@
 #include <memory>
 #include <optional>
 
+#include "cli/background_work.hpp"
 #include "cli/line_option.hpp"
 #include "cli/number_option.hpp"
 #include "cli/studies.hpp"
 #include "cli/terminal.hpp"
-#include "cli/background_work.hpp"
 #include "core/atomic_file.hpp"
 #include "core/console.hpp"
 #include "core/text.hpp"

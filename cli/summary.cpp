@@ -25,7 +25,8 @@ std::string duration(double seconds) {
 
 std::string out_of_balance(const ErrorMonitor::ResidualForce& residual_force) {
   if (!residual_force.of_weight) return fmt::format("{:.2g} N out of balance", residual_force.force);
-  if (*residual_force.of_weight >= 1) return fmt::format("{:.2g} times its weight out of balance", *residual_force.of_weight);
+  if (*residual_force.of_weight >= 1)
+    return fmt::format("{:.2g} times its weight out of balance", *residual_force.of_weight);
   return fmt::format("{:.2g} % of its weight out of balance", 100 * *residual_force.of_weight);
 }
 

@@ -5,12 +5,12 @@
 #include <cstdlib>
 #include <memory>
 
+#include "cli/background_work.hpp"
 #include "cli/interruption.hpp"
 #include "cli/line_option.hpp"
 #include "cli/number_option.hpp"
 #include "cli/sweep_results.hpp"
 #include "cli/terminal.hpp"
-#include "cli/background_work.hpp"
 #include "core/console.hpp"
 #include "core/installation.hpp"
 #include "core/names_in_folders.hpp"

@@ -1,4 +1,4 @@
-# The Debian package, which script/package makes of what cmake --install installs.
+# Debian package of all files that cmake --install installs; script/package builds it.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME drape)
 set(CPACK_PACKAGE_VENDOR "The drape project")
@@ -17,7 +17,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# What dpkg-shlibdeps cannot see, as it is loaded when it is first used (tests/cli/manual_test.cpp looks for it).
+# Libraries loaded at first use, which dpkg-shlibdeps cannot see (tests/cli/manual_test.cpp checks for it).
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libfreetype6, libfontconfig1, fonts-dejavu-core,\
  fonts-droid-fallback, librsvg2-2, libcairo2, libglib2.0-0, libopenblas0-serial, python3, python3-numpy")

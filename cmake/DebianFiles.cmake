@@ -1,5 +1,5 @@
-# Run by cpack before it packs: what a Debian package has beside what is installed anywhere. Licence and changelogs have the
-# names that Debian gives them, and pages of the manual are compressed.
+# Run by cpack before it packs: adds the files that only a Debian package has. Licence and changelogs get Debian's names, and
+# manual pages are compressed.
 set(share ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/share)
 set(doc ${share}/doc/drape)
 execute_process(COMMAND git -C ${CPACK_DRAPE_SOURCE} log -1 --format=%cD
@@ -15,7 +15,7 @@ file(WRITE ${doc}/changelog.Debian "drape (${CPACK_PACKAGE_VERSION}-${CPACK_DEBI
 
  -- ${CPACK_PACKAGE_CONTACT}  ${date}
 ")
-# Below /usr Debian's Python looks in python3, below /usr/local in the folder of its version.
+# Debian's Python searches python3 below /usr, but the folder of its version below /usr/local.
 file(GLOB modules ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/lib/python3.*/dist-packages)
 foreach(module ${modules})
   file(MAKE_DIRECTORY ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/lib/python3)

@@ -1,8 +1,8 @@
-# What makes building faster and changes nothing in what is built: a cache of compiled objects and a fast linker where they
-# are installed, and several files compiled as one (CMAKE_UNITY_BUILD, see CMakePresets.json).
+# Speeds up builds without changing their results: a cache of compiled objects and a fast linker if they are installed, and
+# several files compiled as one (CMAKE_UNITY_BUILD, see CMakePresets.json).
 find_program(DRAPE_CCACHE ccache)
 if(DRAPE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Precompiled headers are looked up by their contents, as ccache's manual asks for.
+  # Finds precompiled headers by their contents, as ccache's manual requires.
   set(CMAKE_CXX_COMPILER_LAUNCHER
     ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${DRAPE_CCACHE})
 endif()

@@ -1,9 +1,9 @@
-# What another CMake project finds with find_package(drape), see docs/library.md.
+# Package for find_package(drape) of other CMake projects, see docs/library.md.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/drape)
 
-# drape::sim, drape::scene, drape::render, and what they share. Static: what is compiled into a program has the bits of
-# this build, and there is no binary interface to keep.
+# drape::sim, drape::scene, drape::render, and their common parts. They are static, so that a program keeps the bits of this
+# build and no binary interface must stay stable.
 set(parts core sim overlay scene codecs render)
 set(targets ${parts})
 list(TRANSFORM targets PREPEND drape_)
@@ -20,8 +20,8 @@ install(FILES ${PROJECT_BINARY_DIR}/drapeConfig.cmake ${PROJECT_BINARY_DIR}/drap
               ${CMAKE_CURRENT_LIST_DIR}/FindCHOLMOD.cmake
         DESTINATION ${package_folder})
 
-# The public headers, each with an example, and those that they include. Installed, they are drape/sim/simulation.hpp, and
-# include each other by that name: a folder `core` or `run` would clash with anybody's.
+# The public headers, each with an example, and the headers that they include. Installed, they are drape/sim/simulation.hpp,
+# and include each other by that name: folders named `core` or `run` would clash with others.
 set(public_headers
   core/error.hpp
   sim/body_shape.hpp sim/cloth.hpp sim/collider.hpp sim/energies.hpp sim/fabrics.hpp sim/frame.hpp sim/instruction_set.hpp sim/keyframes.hpp

@@ -1,4 +1,4 @@
-# Whether the Python module is built, see DRAPE_PYTHON. A sanitizer would have to be loaded before Python itself.
+# Decides whether the Python module is built, see DRAPE_PYTHON. A sanitizer would have to be loaded before Python itself.
 if(DRAPE_PYTHON STREQUAL "auto" AND DRAPE_SANITIZE)
   set(python_wanted OFF)
 else()
@@ -6,7 +6,7 @@ else()
 endif()
 set(DRAPE_PYTHON_BUILT OFF)
 if(python_wanted)
-  # Debian's Python, for which there are headers, before any that somebody has put in front of it.
+  # Prefers Debian's Python, which has headers, to any other on the PATH.
   find_program(Python3_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)
   set(python_required "")
   if(NOT python_wanted STREQUAL "auto")

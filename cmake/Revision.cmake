@@ -1,5 +1,5 @@
-# Writes HEADER, which defines DRAPE_VERSION (see Version.cmake), DRAPE_REVISION, git's name for the state of SOURCE or "unknown"
-# outside a repository, and DRAPE_DATE, when that was committed.
+# Writes HEADER with DRAPE_VERSION (see Version.cmake), DRAPE_REVISION, git's name for the state of SOURCE or "unknown" outside
+# a repository, and DRAPE_DATE, the date of its last commit.
 include(${CMAKE_CURRENT_LIST_DIR}/Version.cmake)
 drape_version(${SOURCE} ${FALLBACK} version)
 execute_process(

@@ -1,5 +1,5 @@
-# drape_version(SOURCE FALLBACK VARIABLE): the version after git's last tag vX.Y.Z, "0.2.0" at it and "0.2.0+15.g3f2a" 15 commits
-# later; where there is no tag, or no repository, FALLBACK.
+# drape_version(SOURCE FALLBACK VARIABLE): sets the version after git's last tag vX.Y.Z: "0.2.0" at the tag, "0.2.0+15.g3f2a" 15
+# commits later. Without a tag or a repository it sets FALLBACK.
 function(drape_version source fallback variable)
   execute_process(
     COMMAND git -C ${source} describe --tags --match "v[0-9]*" --abbrev=8

@@ -10,51 +10,49 @@
 
 namespace drape {
 
-/// Takes the next picture of a video: blue, green, red, all of one size. The video is complete when it is destroyed.
+/// Appends a picture to a video: blue, green, red, all of one size. Destruction completes the video.
 using VideoPen = std::function<void(const cv::Mat& bgr)>;
 
-/// Takes the next picture of an animation; null, once: there is none, and the file is to be completed.
-/// @throws std::runtime_error why it cannot be written
+/// Appends a picture to an animation; a final call with null completes the file.
+/// @throws std::runtime_error with the reason if it cannot be written
 using AnimationPen = std::function<void(const cv::Mat* rgb)>;
 
-/// Encoders and decoders of videos, and decoders of pictures that are no PNG: OpenCV and FFmpeg, in a module of ours
-/// beside the program (codecs/opencv_codecs.cpp), because starting with the two hundred libraries that it needs takes
-/// ten times as long as starting without. Functions, not a class: what the two would know of its type are two things to
-/// the sanitizers.
+/// Encoders and decoders of videos, and decoders of pictures other than PNG: OpenCV and FFmpeg, in a module beside the
+/// program (codecs/opencv_codecs.cpp). Linking its two hundred libraries would make each start ten times slower.
+/// Function pointers, not a class: sanitizers would see two different types in program and module.
 struct Codecs {
-  /// The picture in the bytes of a file, as cv::imdecode(); says nothing on the terminal.
+  /// Decodes a picture file from memory, as cv::imdecode(); prints nothing.
   /// @param flags cv::ImreadModes
-  /// @returns a picture without pixels if they are damaged
+  /// @returns an empty picture if the bytes are damaged
   /// @throws cv::Exception
   cv::Mat (*decode)(std::string_view bytes, int flags);
 
   /// Begins a video.
-  /// @param fourcc the four letters that a codec is known by
+  /// @param fourcc four-letter code of the codec
   /// @param size   even numbers
-  /// @returns nothing if it cannot be written
+  /// @returns an empty function if it cannot be written
   VideoPen (*begin_video)(const std::string& file, const std::string& fourcc, double fps, cv::Size size);
 
   /// Begins an animation that repeats for ever.
-  /// @param form "webp", which is not quite exact, or "apng", which is
-  /// @throws std::runtime_error why it cannot be written
+  /// @param form "webp", slightly lossy, or "apng", lossless
+  /// @throws std::runtime_error with the reason if it cannot be written
   AnimationPen (*begin_animation)(const std::string& file, const std::string& form, double fps, cv::Size size);
 
-  /// How many frames a player would find in a video or GIF.
+  /// Counts the frames that a player can read from a video or GIF.
   int (*readable_frames)(const std::string& file);
 };
 
-/// Where the module is: in the folder lib/drape that was installed or built with the program, wherever they were moved
-/// to.
-/// @throws OutputError if it is not there
+/// Returns the path of the module: in the folder lib/drape of this installation or build, which may have been moved.
+/// @throws OutputError if it is missing
 std::filesystem::path codecs_module();
 
-/// The codecs. The first call loads them, which takes a tenth of a second; from any thread.
+/// Returns the codecs. The first call loads them, which takes a tenth of a second; callable from any thread.
 /// @throws OutputError if they cannot be loaded
 const Codecs& codecs();
 
-/// The picture in the bytes of a file: blue, green, red. A PNG needs no codecs() for it.
-/// @param flags cv::ImreadModes, which a PNG does without
-/// @returns a picture without pixels if they are damaged
+/// Decodes a picture file from memory to blue, green, red. A PNG does not load codecs().
+/// @param flags cv::ImreadModes; ignored for a PNG
+/// @returns an empty picture if the bytes are damaged
 /// @throws OutputError as codecs(), cv::Exception
 cv::Mat decode_picture(std::string_view bytes, int flags);
 

@@ -14,7 +14,7 @@ extern "C" {
 namespace drape {
 namespace {
 
-/// @returns the code, if it is no error
+/// Throws std::runtime_error with libav's message for an error code. @returns other codes
 int checked(int code) {
   if (code >= 0) return code;
   std::array<char, AV_ERROR_MAX_STRING_SIZE> reason{};
@@ -22,7 +22,7 @@ int checked(int code) {
   throw std::runtime_error(reason.data());
 }
 
-/// FFmpeg's objects of one animation, of which libav frees what there is.
+/// Owner of FFmpeg's objects of one animation; safe to destroy when only partly built.
 class Animation {
  public:
   Animation(const std::string& file, double fps, cv::Size size) {
@@ -65,7 +65,8 @@ class Animation {
     encoder_->time_base = av_inv_q(rate);
     encoder_->framerate = rate;
     encoder_->thread_count = 1;
-    checked(av_opt_set(encoder_->priv_data, "pred", "mixed", 0));  // each row predicted as compresses best
+    checked(
+        av_opt_set(encoder_->priv_data, "pred", "mixed", 0));  // lets the encoder choose the best prediction per row
     checked(avcodec_open2(encoder_.get(), codec, nullptr));
   }
 
@@ -83,7 +84,7 @@ class Animation {
     checked(avformat_write_header(container, nullptr));
   }
 
-  /// @param picture null: the last one has been sent
+  /// @param picture null: end of the animation
   void send(const AVFrame* picture) {
     checked(avcodec_send_frame(encoder_.get(), picture));
     while (true) {

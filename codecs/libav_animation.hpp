@@ -4,7 +4,7 @@
 
 namespace drape {
 
-/// Codecs::begin_animation of an APNG, by FFmpeg's libraries themselves: OpenCV asks them for no animation.
+/// Implements Codecs::begin_animation for APNG with FFmpeg's libraries: OpenCV cannot write APNG with them.
 AnimationPen begin_apng(const std::string& file, double fps, cv::Size size);
 
 }  // namespace drape

@@ -8,16 +8,16 @@
 #include "codecs/quiet.hpp"
 #include "codecs/webp_animation.hpp"
 
-// The module: what drape links nothing of, and finds by the one name at the end.
+// The module: drape links none of it, and finds it by the single name at the end.
 
 namespace drape {
 namespace {
 
-std::mutex* console = nullptr;  // the program's, see QuietStderr
+std::mutex* console = nullptr;  // the program's mutex, see QuietStderr
 
 cv::Mat decode(std::string_view bytes, int flags) {
   const cv::Mat all(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-  const QuietStderr quiet(*console);  // libpng says on its own what it does not like, without the file's name
+  const QuietStderr quiet(*console);  // libpng would print errors without the file's name
   return cv::imdecode(all, flags);
 }
 
@@ -27,7 +27,7 @@ VideoPen begin_video(const std::string& file, const std::string& fourcc, double 
   cv::VideoWriter writer;
   const int code = cv::VideoWriter::fourcc(fourcc[0], fourcc[1], fourcc[2], fourcc[3]);
   const bool opened = writer.open(file, cv::CAP_FFMPEG, code, fps, size);
-  silence_ffmpeg();  // OpenCV turns its messages on when it is first used
+  silence_ffmpeg();  // OpenCV turns its messages on at first use
   if (!opened) return {};
   return [writer](const cv::Mat& bgr) mutable { writer.write(bgr); };
 }
@@ -39,7 +39,7 @@ AnimationPen begin_animation(const std::string& file, const std::string& form, d
 cv::VideoCapture opened(const std::string& file) {
   const QuietStderr quiet(*console);
   cv::VideoCapture video(file, cv::CAP_FFMPEG);
-  silence_ffmpeg();  // OpenCV has just undone it
+  silence_ffmpeg();  // OpenCV has just turned them on
   return video;
 }
 

@@ -10,10 +10,10 @@
 namespace drape {
 namespace {
 
-constexpr int compression = 6;  // zlib's own choice between time and size
+constexpr int compression = 6;  // zlib's default compromise between time and size
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 30;
 
-/// Message of libpng's last error, which it leaves by a jump.
+/// Message of libpng's last error, which it raises by longjmp.
 struct Failure {
   char text[128] = "";
 };
@@ -38,7 +38,7 @@ void take(png_structp png, png_bytep data, std::size_t size) {
   left->remove_prefix(size);
 }
 
-/// Has no objects of its own, which a jump would leave behind.
+/// Writes a picture. Has no local objects, whose destructors longjmp would skip.
 bool write(png_structp png, png_infop info, const cv::Mat& bgr, const std::vector<png_bytep>& rows) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_compression_level(png, compression);
@@ -51,7 +51,7 @@ bool write(png_structp png, png_infop info, const cv::Mat& bgr, const std::vecto
   return true;
 }
 
-/// Reads the header, and has libpng turn whatever follows into blue, green, red. Likewise without objects.
+/// Reads the header and sets up the conversion to blue, green, red. Likewise without local objects.
 bool begin_reading(png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_read_info(png, info);

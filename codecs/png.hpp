@@ -8,19 +8,18 @@
 
 namespace drape {
 
-/// libpng with its version: what makes and reads PNG files, without the module of the other codecs.
+/// Returns the name and version of libpng, which handles PNG files without the codecs module.
 std::string png_library();
 
-/// The bytes of a PNG file with these pixels: blue, green, red. The same pixels give the same bytes.
-/// @throws std::runtime_error why it cannot be encoded
+/// Encodes pixels (blue, green, red) as a PNG file. Equal pixels give equal bytes.
+/// @throws std::runtime_error with the reason if it cannot be encoded
 std::vector<std::uint8_t> png_from_bgr(const cv::Mat& bgr);
 
-/// Returns whether these are the bytes of a PNG file, by their first eight.
+/// Returns true if the first eight bytes are those of a PNG file.
 bool is_png(std::string_view bytes);
 
-/// The pixels of a PNG file, of any kind, as blue, green, red of 8 bits; transparency and colour profiles are ignored.
-/// Says nothing on the terminal.
-/// @returns a picture without pixels if the file is damaged, or has more than 2³⁰ of them
+/// Decodes a PNG file of any kind to 8-bit blue, green, red; ignores transparency and colour profiles. Prints nothing.
+/// @returns an empty picture if the file is damaged, or has more than 2³⁰ pixels
 cv::Mat bgr_from_png(std::string_view bytes);
 
 }  // namespace drape

@@ -4,9 +4,8 @@
 
 namespace drape {
 
-/// While it lives, nothing that libraries print reaches the terminal: OpenCV 4.6 reports to stderr which tag it puts in
-/// place of the one asked for, and no setting stops it. For the whole process, so keep it short: who has something to
-/// say, and holds the same mutex for it, waits as long.
+/// Redirects stderr to nowhere during its lifetime: OpenCV 4.6 prints which video tag it substitutes, and no setting
+/// prevents it. It affects the whole process, so keep it short: printing code that holds the same mutex waits.
 class QuietStderr {
  public:
   explicit QuietStderr(std::mutex& console);
@@ -16,11 +15,11 @@ class QuietStderr {
 
  private:
   std::scoped_lock<std::mutex> lock_;
-  int kept_ = -1;  // what stderr is without it
+  int kept_ = -1;  // descriptor of the original stderr
 };
 
-/// Keeps FFmpeg, which OpenCV uses, from writing to the terminal: what goes wrong is reported by exceptions. For the
-/// whole process, until OpenCV turns its messages on again, as it does when it is first used.
+/// Silences FFmpeg, which OpenCV uses, on the terminal: exceptions report errors. Holds for the whole process until
+/// OpenCV turns the messages on again, at its first use.
 void silence_ffmpeg();
 
 }  // namespace drape

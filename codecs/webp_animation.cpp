@@ -17,24 +17,24 @@ namespace {
 
 using Mask = cv::Mat1b;  // 1 where a frame changes the picture
 
-constexpr float quality = 75;          // libwebp's own default: a film has two thirds of the size of a GIF
-constexpr int seen_at_rest = 0;        // of 255: what may be off where nothing moves
-constexpr int seen_in_motion = 5;      // and elsewhere; in libwebp it is as much at this quality
-constexpr std::uint8_t at_rest = 4;    // frames for which a pixel has not changed
-constexpr int block = 8;               // pixels: what is transparent is the cheaper the fewer corners it has
-constexpr std::int64_t shortest = 11;  // [ms]; browsers show what is shorter for a tenth of a second
-constexpr int repair_interval = 12;    // frames, where a frame is too short to be cut in two
+constexpr float quality = 75;          // libwebp's default: a film has two thirds of the size of a GIF
+constexpr int seen_at_rest = 0;        // tolerated error of 255 where nothing moves
+constexpr int seen_in_motion = 5;      // and elsewhere; libwebp's own error is as large at this quality
+constexpr std::uint8_t at_rest = 4;    // frames for which a resting pixel has not changed
+constexpr int block = 8;               // [pixels]; transparent areas compress better with fewer corners
+constexpr std::int64_t shortest = 11;  // [ms]; browsers stretch shorter frames to a tenth of a second
+constexpr int repair_interval = 12;    // frames, if frames are too short to be split
 
 enum class Loss { some, none };
 
-/// The largest difference of a channel.
+/// Returns the largest difference of a channel.
 int difference(const cv::Vec3b& a, const cv::Vec3b& b) {
   int largest = 0;
   for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(a[c] - b[c]));
   return largest;
 }
 
-/// The pixels in a mask, from an even corner; empty if there are none.
+/// Returns the bounding box of a mask, with even corner coordinates; empty for an empty mask.
 cv::Rect box_of(const Mask& mask) {
   cv::Point first(mask.cols, mask.rows), last(-1, -1);
   for (int y = 0; y < mask.rows; ++y) {
@@ -48,14 +48,14 @@ cv::Rect box_of(const Mask& mask) {
   return {cv::Point(first.x - first.x % 2, first.y - first.y % 2), cv::Point(last.x + 1, last.y + 1)};
 }
 
-/// Part of a picture as a WebP file.
+/// Encodes part of a picture as a WebP file.
 std::string encoded(const cv::Mat3b& rgb, const Mask& mask, const cv::Rect& box, Loss loss) {
   WebPConfig config;
   WebPPicture picture;
   if (WebPConfigInit(&config) == 0 || WebPPictureInit(&picture) == 0)
     throw std::runtime_error("libwebp is another one");
   config.lossless = loss == Loss::none ? 1 : 0;
-  config.quality = loss == Loss::none ? 50 : quality;  // without loss it says how long to search
+  config.quality = loss == Loss::none ? 50 : quality;  // lossless: search effort
   picture.use_argb = 1;
   picture.width = box.width;
   picture.height = box.height;
@@ -111,7 +111,7 @@ class WebpAnimation {
     show(now, Mask::ones(now.size()), Loss::some, 0);
   }
 
-  /// Counts for how many frames each pixel has been the same.
+  /// Updates for how many frames each pixel has been the same.
   void compare(const cv::Mat3b& now) {
     for (int y = 0; y < now.rows; ++y) {
       for (int x = 0; x < now.cols; ++x) {
@@ -127,7 +127,7 @@ class WebpAnimation {
     return difference(now(y, x), seen_(y, x)) > (rest_(y, x) >= at_rest ? seen_at_rest : seen_in_motion);
   }
 
-  /// What is off at rest, and stayed so when it was compressed again.
+  /// Returns the resting pixels that are still wrong after they were compressed again.
   [[nodiscard]] Mask stubborn(const cv::Mat3b& now) const {
     Mask mask = Mask::zeros(now.size());
     for (int y = 0; y < now.rows; ++y) {
@@ -136,8 +136,8 @@ class WebpAnimation {
     return mask;
   }
 
-  /// All that is off.
-  /// @param moving whether any of it has moved
+  /// Returns all pixels that are wrong.
+  /// @param moving set to true if any of them has moved
   [[nodiscard]] Mask off(const cv::Mat3b& now, bool& moving) const {
     Mask mask = Mask::zeros(now.size());
     moving = false;
@@ -151,7 +151,7 @@ class WebpAnimation {
     return mask;
   }
 
-  /// Adds what moves in the blocks that are off.
+  /// Adds the moving pixels of blocks with many wrong pixels.
   void fill_blocks(Mask& mask) const {
     for (int y = 0; y < mask.rows; y += block) {
       for (int x = 0; x < mask.cols; x += block) {
@@ -171,14 +171,14 @@ class WebpAnimation {
       mask.setTo(0, kept_);
       fill_blocks(mask);
     }
-    constexpr std::int64_t longest = 10'000'000;  // [ms]; a frame has 24 bits for it
+    constexpr std::int64_t longest = 10'000'000;  // [ms]; durations have 24 bits
     if (begin - file_.last_begin() > longest) mask(0, 0) = 1;
     show(now, mask, lossless ? Loss::none : Loss::some, begin);
     keep_what_is_off(now, mask);
     if (cut_in_two) show(now, stubborn(now), Loss::none, begin + (end - begin) / 2);
   }
 
-  /// Remembers what is at rest, was just changed, and is off all the same.
+  /// Marks the resting pixels that were just rewritten and are still wrong.
   void keep_what_is_off(const cv::Mat3b& now, const Mask& mask) {
     for (int y = 0; y < now.rows; ++y) {
       for (int x = 0; x < now.cols; ++x) {
@@ -187,7 +187,7 @@ class WebpAnimation {
     }
   }
 
-  /// Changes the pixels of a mask, if there are any.
+  /// Encodes the pixels of a mask and updates the viewer's picture; does nothing for an empty mask.
   void show(const cv::Mat3b& now, const Mask& mask, Loss loss, std::int64_t begin) {
     const cv::Rect box = box_of(mask);
     if (box.empty()) return;
@@ -210,9 +210,9 @@ class WebpAnimation {
   WebpFile file_;
   double fps_;
   std::int64_t count_ = 0;
-  cv::Mat3b before_, seen_;  // the frame before as it was drawn, and what a viewer sees of it
-  cv::Mat1b rest_;           // for how many frames each pixel has been the same
-  cv::Mat1b kept_;           // 1: it is at rest, and lossy compression leaves it off
+  cv::Mat3b before_, seen_;  // previous frame as drawn, and the viewer's picture
+  cv::Mat1b rest_;           // frames for which each pixel has been the same
+  cv::Mat1b kept_;           // 1: at rest, but wrong after lossy compression
 };
 
 }  // namespace

@@ -4,12 +4,12 @@
 
 namespace drape {
 
-/// Codecs::begin_animation of a WebP.
+/// Implements Codecs::begin_animation for WebP.
 ///
-/// Each frame changes what has moved, by lossy compression, where the viewer's picture is off. A pixel that is the same
-/// for five frames is right to two of 255: what is still off then is compressed again, and without loss where that
-/// does not help. libwebp's own WebPAnimEncoder compares frames as they were drawn, not as they are seen, and leaves
-/// changes that are too small to see each time: a shadow that passes leaves bars.
+/// Each frame rewrites, with lossy compression, the moved pixels that are wrong in the viewer's picture. Pixels that
+/// rest for five frames must be within 2 of 255: wrong ones are compressed again, and losslessly if that fails.
+/// libwebp's WebPAnimEncoder compares frames as drawn, not as seen, so small changes accumulate: a passing shadow
+/// leaves bars.
 AnimationPen begin_webp(const std::string& file, double fps, cv::Size size);
 
 }  // namespace drape

@@ -8,7 +8,7 @@
 namespace drape {
 namespace {
 
-/// A number in so many bytes, the lowest first.
+/// Encodes a number in `bytes` bytes, little-endian.
 std::string little_endian(std::uint64_t number, int bytes) {
   std::string text;
   for (int i = 0; i < bytes; ++i) text += static_cast<char>(number >> (8 * i) & 0xFFU);
@@ -21,9 +21,9 @@ std::string chunk(std::string_view tag, const std::string& content) {
   return content.size() % 2 == 0 ? bytes : bytes + '\0';
 }
 
-/// The chunks of a still picture that an animation takes over: its alpha and its pixels.
+/// Returns the chunks of a still picture that an animation uses: its alpha and its pixels.
 std::string pixels_of(const std::string& still) {
-  constexpr std::size_t head = 8, first = 12;  // bytes of a chunk's head, and of the file's
+  constexpr std::size_t head = 8, first = 12;  // sizes of a chunk's header and of the file's [bytes]
   std::string chunks;
   for (std::size_t at = first; at + head <= still.size();) {
     std::uint32_t size = 0;
@@ -40,7 +40,7 @@ std::string head_of(cv::Size size, std::uint64_t bytes) {
   constexpr char animated = 0x02, transparent = 0x10;
   const auto side = [](int pixels) { return little_endian(static_cast<std::uint64_t>(pixels - 1), 3); };
   const std::string features = std::string(1, animated | transparent) + std::string(3, '\0');
-  const std::string black_for_ever = std::string(4, '\0') + std::string(2, '\0');  // behind everything; 0 repetitions
+  const std::string black_for_ever = std::string(4, '\0') + std::string(2, '\0');  // background; 0: repeats for ever
   return "RIFF" + little_endian(bytes, 4) + "WEBP" + chunk("VP8X", features + side(size.width) + side(size.height)) +
          chunk("ANIM", black_for_ever);
 }
@@ -50,7 +50,7 @@ std::string head_of(cv::Size size, std::uint64_t bytes) {
 }  // namespace
 
 WebpFile::WebpFile(const std::string& file, cv::Size size) {
-  constexpr int most = 16383;  // of libwebp
+  constexpr int most = 16383;  // limit of libwebp
   if (size.width > most || size.height > most) throw std::runtime_error("a WebP has at most 16383 pixels a side");
   stream_.reset(std::fopen(file.c_str(), "wbe"));
   if (!stream_) fail();
@@ -81,7 +81,7 @@ void WebpFile::finish(std::int64_t end) {
   write_frame(end);
   frame_.clear();
   errno = 0;
-  const std::string size = little_endian(size_ - 8, 4);  // all but "RIFF" and itself
+  const std::string size = little_endian(size_ - 8, 4);  // all but "RIFF" and the size itself
   if (std::fseek(stream_.get(), 4, SEEK_SET) != 0) fail();
   put(size);
   if (std::fflush(stream_.get()) != 0) fail();

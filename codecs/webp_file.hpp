@@ -8,22 +8,22 @@
 
 namespace drape {
 
-/// The file of an animated WebP that repeats for ever (RFC 9649): frames, of which each changes a rectangle.
+/// An animated WebP file that repeats for ever (RFC 9649). Each of its frames changes a rectangle.
 class WebpFile {
  public:
-  /// @throws std::runtime_error why it cannot be written
+  /// @throws std::runtime_error with the reason if it cannot be written
   WebpFile(const std::string& file, cv::Size size);
 
-  /// Shows a frame over those before it, until the next begins.
-  /// @param still the bytes of a WebP file of its own; what is transparent in it stays
-  /// @param place of it; its corner has even numbers
+  /// Shows a frame on top of the previous ones, until the next begins.
+  /// @param still bytes of a WebP file; its transparent pixels keep the previous picture
+  /// @param place rectangle of the frame; its corner has even coordinates
   /// @param begin [ms]
   void show(const std::string& still, const cv::Rect& place, std::int64_t begin);
 
-  /// When the frame that is shown began [ms].
+  /// Returns when the current frame began [ms].
   [[nodiscard]] std::int64_t last_begin() const { return begin_; }
 
-  /// Ends the last frame, and completes the file.
+  /// Ends the last frame and completes the file.
   void finish(std::int64_t end);
 
  private:
@@ -34,7 +34,7 @@ class WebpFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::unique_ptr<std::FILE, Close> stream_;
-  std::string frame_;  // the chunks of that which is shown
+  std::string frame_;  // chunks of the current frame
   cv::Rect place_;
   std::int64_t begin_ = 0;
   std::uint64_t size_ = 0;

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <deque>
 
-#include "compare/synchronised_motions.hpp"
 #include "compare/page.hpp"
 #include "compare/panels.hpp"
+#include "compare/synchronised_motions.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "output/contact_sheet.hpp"

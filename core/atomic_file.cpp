@@ -24,9 +24,9 @@ namespace {
   throw OutputError(fmt::format("cannot write {}: {}", shown(file), reason));
 }
 
-/// Temporary files of one target are numbered from 0 on: several processes and threads may write it at once.
+/// Returns the temporary file's name. Numbers start at 0: several processes and threads may write one target at once.
 fs::path temporary_name(const fs::path& target, int number) {
-  // The longest name a folder takes is 255 bytes.
+  // A file name has at most 255 bytes.
   constexpr std::size_t longest_stem = 100, longest_extension = 16;
   const std::string extension = target.extension().string();
   return target.parent_path() / fmt::format(".{}.partial-{}{}", target.stem().string().substr(0, longest_stem), number,
@@ -35,7 +35,7 @@ fs::path temporary_name(const fs::path& target, int number) {
 
 enum class Lock { held, taken, unavailable };
 
-/// Locks an open file and looks whether it still has its name: its owner may have renamed or removed it just before.
+/// Locks an open file, then checks its name: the previous owner may just have renamed or removed the file.
 Lock lock(int descriptor, const fs::path& name) {
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno == EWOULDBLOCK ? Lock::taken : Lock::unavailable;
   struct stat opened {
@@ -45,8 +45,8 @@ Lock lock(int descriptor, const fs::path& name) {
   return same ? Lock::held : Lock::taken;
 }
 
-/// Removes a temporary file that no one is writing any more. Where files cannot be locked it stays.
-/// @returns whether there is, or was, such a file
+/// Removes a temporary file that nobody writes any more. It stays if the file system has no locks.
+/// @returns true if such a file exists or has just been removed
 bool clear_away(const fs::path& name) {
   const int descriptor = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return errno == EACCES || errno == ELOOP;  // another user's, or a symbolic link
@@ -83,7 +83,7 @@ fs::path partial_name(const fs::path& file) {
 
 PartialFile::PartialFile(const fs::path& file) : file_(file) {
   if (!file.has_filename()) fail_to_write(file, "a file name is missing");
-  // The system would take such a name for what is before the zero.
+  // System calls read a name only up to the first zero byte.
   if (file.native().find('\0') != std::string::npos) fail_to_write(file, "its name has a zero byte");
   try {
     target_ = link_target(file);
@@ -106,7 +106,7 @@ PartialFile::PartialFile(const fs::path& file) : file_(file) {
 
 PartialFile::~PartialFile() {
   if (descriptor_ < 0) return;
-  ::unlink(temporary_.c_str());  // as long as it is locked: the name may be another's afterwards
+  ::unlink(temporary_.c_str());  // while it is still locked: afterwards another process may own the name
   ::close(descriptor_);
 }
 
@@ -118,7 +118,7 @@ void PartialFile::open_temporary() {
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno != EEXIST) fail(errno);
     if (descriptor_ >= 0 && lock(descriptor_, temporary_) == Lock::taken) {
-      // By another process, which took it for one left behind.
+      // Another process has locked it: it took the file for an abandoned one.
       ::close(descriptor_);
       descriptor_ = -1;
     }
@@ -152,7 +152,7 @@ void PartialFile::adopt(const fs::path& other) {
 }
 
 void PartialFile::require_space() {
-  // More than the end of the last block, which is free on a full disk too.
+  // One MiB exceeds the unused end of the last block, which is writable even on a full disk.
   const std::string bytes(1 << 20, '\0');
   if (::lseek(descriptor_, 0, SEEK_END) < 0) fail(errno);
   write(bytes);

@@ -7,11 +7,11 @@
 
 namespace drape {
 
-/// Words as bytes: those of most significance of all words first, then the next ones. What is alike stands together, so
-/// that it packs well.
+/// Splits words into byte planes: the most significant bytes of all words, then the next ones. Similar bytes become
+/// neighbours, so the result compresses well.
 std::string byte_planes(const std::vector<std::uint64_t>& words);
 
-/// The inverse. What is left over of eight equal planes is not read.
+/// Inverts byte_planes(). Ignores a remainder of size() modulo 8.
 std::vector<std::uint64_t> from_byte_planes(std::string_view bytes);
 
 }  // namespace drape

@@ -11,13 +11,13 @@
 namespace drape {
 namespace {
 
-std::atomic<int> first_error = 0;  // of standard output
+std::atomic<int> first_error = 0;  // first error number of standard output; 0: none
 
 }  // namespace
 
 void open_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // The lowest free number is given to what is opened, and those below are open by now.
+    // open() returns the lowest free descriptor, and all lower ones are open by now.
     if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) static_cast<void>(::open("/dev/null", O_RDWR));
   }
 }

@@ -6,23 +6,23 @@
 
 namespace drape {
 
-/// Opens /dev/null on those of the three standard streams that are closed. Otherwise the next file that is opened takes
-/// the place of one, and what is printed goes into it.
+/// Opens /dev/null on each closed standard stream. Otherwise the next opened file would get its descriptor, and printed
+/// text would go into that file.
 void open_standard_streams();
 
-/// Prints text for a person, at once, with control characters escaped (escape_controls). What the stream does not take
-/// is lost: telling must not cost the results that it tells of.
+/// Prints text at once, with control characters escaped (escape_controls). Text that the stream rejects is lost, so
+/// that a failing message never costs the results.
 void print_text(std::FILE* stream, std::string_view text);
 
-/// Prints text as it is: colours and cursor movements, and text that is escaped already.
-/// @returns whether the stream took it
+/// Prints text unchanged: colours, cursor movements, and text that is escaped already.
+/// @returns true if the stream took it
 bool print_unescaped(std::FILE* stream, std::string_view text);
 
-/// Held while text is printed. Who keeps libraries from printing for a while, and so everybody, holds it as long.
+/// Returns the mutex that is held while text is printed, and while a library's output is silenced.
 std::mutex& console_mutex();
 
-/// Why standard output has lost text, or what is still buffered for it cannot be written: an error number, or 0. Of a
-/// reader that has gone away (EPIPE) nothing is said: it has had enough.
+/// Returns the error number if standard output lost text or cannot be flushed, otherwise 0. A reader that closed the
+/// pipe (EPIPE) is no error.
 int lost_output();
 
 }  // namespace drape

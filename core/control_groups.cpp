@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Adds a group below a mount, and all around it.
+/// Adds a group below a mount, and all groups around it.
 void add_way_up(const fs::path& mount, fs::path group, int version, std::vector<ControlGroup>& groups) {
   for (group = group.relative_path();; group = group.parent_path()) {
     groups.push_back({mount / group, version});
@@ -19,7 +19,7 @@ void add_way_up(const fs::path& mount, fs::path group, int version, std::vector<
 }  // namespace
 
 std::vector<ControlGroup> control_groups(const std::string& controller, const fs::path& root) {
-  // Lines "number:controllers:path", of which version 2's has no controllers.
+  // Lines are "number:controllers:path"; version 2 has no controllers.
   std::vector<ControlGroup> groups;
   std::ifstream stream(root / "proc/self/cgroup");
   for (std::string line; std::getline(stream, line);) {
@@ -30,7 +30,7 @@ std::vector<ControlGroup> control_groups(const std::string& controller, const fs
     std::getline(fields, path);
     const fs::path mounts = root / "sys/fs/cgroup";
     if (controllers.empty()) {
-      // Beside version 1's it may be mounted in a folder of its own.
+      // Next to version 1, version 2 may be mounted in a folder of its own.
       for (const fs::path& mount : {mounts, mounts / "unified"}) add_way_up(mount, path, 2, groups);
     } else if (("," + controllers + ",").find("," + controller + ",") != std::string::npos) {
       add_way_up(mounts / controller, path, 1, groups);

@@ -6,16 +6,16 @@
 
 namespace drape {
 
-/// A control group that this process is in, or one around it.
+/// A control group of this process, or a group around it.
 struct ControlGroup {
-  std::filesystem::path folder;  ///< of its files; it need not exist
-  int version;                   ///< 1 or 2, whose files have other names
+  std::filesystem::path folder;  ///< folder of its files; need not exist
+  int version;                   ///< 1 or 2; their files have different names
 };
 
-/// The groups that limit what the process may take of what a controller hands out. In a container it may be in a group
-/// whose path means nothing there; what is mounted is then the container's own.
+/// Returns the groups that limit this process's use of a resource. Inside a container the path of the group may not
+/// exist; then the mount point is the container's own group.
 /// @param controller "memory" or "cpu"
-/// @param root       where /proc and /sys are
+/// @param root       folder that holds /proc and /sys
 std::vector<ControlGroup> control_groups(const std::string& controller, const std::filesystem::path& root);
 
 }  // namespace drape

@@ -12,15 +12,14 @@
 
 namespace drape {
 
-/// What an error is of, the worse the later: several errors together are of the kind of the worst.
+/// Category of an error, by increasing severity. Several errors together have the most severe category.
 enum class ErrorKind {
-  usage,     ///< what is asked for, the scene or a file it names is wrong
-  diverged,  ///< the simulation left the range of finite numbers, or gained energy out of nothing
+  usage,     ///< the command, the scene or one of its files is wrong
+  diverged,  ///< the simulation reached non-finite numbers, or gained energy
   output     ///< drawing, encoding or writing failed
 };
 
-/// A failure with a message for people. The message is complete: it names the file or key, what was expected and what
-/// was found.
+/// A failure with a complete message for people: the file or key, the expected value and the one found.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
@@ -30,19 +29,19 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-/// What is asked for, a scene or an input file is wrong. The message may have several lines, one per problem.
+/// A wrong command, scene or input file. The message may have several lines, one per problem.
 class UsageError : public Error {
  public:
   explicit UsageError(const std::string& message) : Error(ErrorKind::usage, message) {}
 };
 
-/// The motion blew up, or left the range of finite numbers.
+/// A motion that blew up or reached non-finite numbers.
 class DivergedError : public Error {
  public:
   explicit DivergedError(const std::string& message) : Error(ErrorKind::diverged, message) {}
 };
 
-/// Drawing, encoding or writing a file failed.
+/// A failure to draw, encode or write a file.
 class OutputError : public Error {
  public:
   explicit OutputError(const std::string& message) : Error(ErrorKind::output, message) {}

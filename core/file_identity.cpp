@@ -9,7 +9,7 @@ namespace drape {
 namespace fs = std::filesystem;
 
 fs::path link_target(const fs::path& file) {
-  constexpr int most_links = 40;  // as Linux
+  constexpr int most_links = 40;  // same limit as Linux
   fs::path target = fs::absolute(file);
   for (int i = 0; fs::is_symlink(fs::symlink_status(target)); ++i) {
     if (i == most_links) throw fs::filesystem_error("", file, std::error_code(ELOOP, std::generic_category()));
@@ -27,7 +27,7 @@ std::string file_identity(const fs::path& file) {
     const fs::path target = link_target(file);
     return (fs::weakly_canonical(target.parent_path()) / target.filename()).string();
   } catch (const fs::filesystem_error&) {
-    std::error_code ignored;  // whoever opens it will say what is wrong
+    std::error_code ignored;  // opening the file will report the problem
     return fs::absolute(file, ignored).lexically_normal().string();
   }
 }

@@ -5,13 +5,12 @@
 
 namespace drape {
 
-/// The file that a chain of symbolic links ends at, which need not exist; absolute.
+/// Follows a chain of symbolic links to its end and returns that absolute path, which need not exist.
 /// @throws std::filesystem::filesystem_error if the chain has no end or cannot be followed
 std::filesystem::path link_target(const std::filesystem::path& file);
 
-/// Two paths lead to one file if these are the same, however they are written: by ".", "..", symbolic links or several
-/// names of the file. It need not exist. Two names that differ in nothing but the case of letters are taken for two
-/// files as long as none of them exists.
+/// Returns a key that is the same for all paths to one file, through ".", "..", symbolic links or hard links. The file
+/// need not exist. Two missing files whose names differ only in the case of letters count as different.
 std::string file_identity(const std::filesystem::path& file);
 
 }  // namespace drape

@@ -20,7 +20,7 @@
 namespace drape {
 namespace {
 
-constexpr const char* loader_folder = "loader";  // of libexec/ in the portable archive
+constexpr const char* loader_folder = "loader";  // in libexec/ of the portable archive
 
 /// Appends the folder of a file and those above it.
 void add_folders_above(const std::filesystem::path& file, std::vector<std::filesystem::path>& folders) {
@@ -31,7 +31,7 @@ void add_folders_above(const std::filesystem::path& file, std::vector<std::files
   }
 }
 
-/// The file that an address of this process was mapped from; empty where there is none.
+/// Returns the file mapped at an address of this process; empty if there is none.
 std::filesystem::path mapped_file(std::uintptr_t address) {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
@@ -45,7 +45,7 @@ std::filesystem::path mapped_file(std::uintptr_t address) {
   return {};
 }
 
-/// The address of the program's own headers: a loader lists the program before its libraries.
+/// Returns the address of the program's ELF headers: the loader lists the program before its libraries.
 std::uintptr_t program_address() {
   std::uintptr_t address = 0;
   dl_iterate_phdr(
@@ -57,13 +57,13 @@ std::uintptr_t program_address() {
   return address;
 }
 
-/// The loader of the portable archive, where it runs this program: it is then what the system has started.
-/// A system's own loader never is, as the kernel maps it beside the program.
+/// Returns true if the portable archive's loader runs this program: the started file is then the loader.
+/// The system's own loader is never the started file, because the kernel maps it beside the program.
 bool run_by_loader(const std::filesystem::path& started, const std::filesystem::path& mapped) {
   return !mapped.empty() && started.parent_path().filename() == loader_folder && started != mapped;
 }
 
-/// The variables that lead libraries to their data in a portable archive.
+/// Returns the environment variables that lead libraries to their data in a portable archive.
 std::vector<std::pair<std::string, std::string>> portable_variables() {
   const std::filesystem::path root = portable_root();
   if (root.empty()) return {};

@@ -4,7 +4,7 @@
 
 namespace drape {
 
-/// A value at a moment.
+/// A value at one time.
 struct Keyframe {
   double time = 0;  ///< [s]
   Eigen::Vector3d value = Eigen::Vector3d::Zero();

@@ -20,29 +20,28 @@
 
 namespace drape {
 
-/// One of several names; choosing one calls `set` with its place in `names`.
+/// One of several names; choosing one calls `set` with its index in `names`.
 struct Choice {
   std::vector<std::string> names;
   std::function<void(std::size_t)> set;
-  std::optional<std::size_t> initial = 0;  ///< the place of the one that holds so far: without the key, its default
+  std::optional<std::size_t> initial = 0;  ///< index of the default
 };
 
-/// A key whose value is of a kind of its own, such as a mesh or a file with a motion. Nothing here knows what it is:
-/// whoever describes the table and whoever reads it do.
+/// A value of a special form, such as a mesh or a motion file; interpreted by the reader of the table.
 struct CustomValue {
-  std::string form;  ///< for a reference page: "number or [x, y, z]"
-  std::any target;   ///< a pointer to what is set if the key is given
+  std::string form;  ///< description for a reference page: "number or [x, y, z]"
+  std::any target;   ///< pointer to the variable that the key sets
 };
 
-/// Keyframes, [{ time = 0, NAME = [x, y, z] }, …], at times that increase from 0 on.
+/// Keyframes, [{ time = 0, NAME = [x, y, z] }, …], at increasing times from 0.
 struct KeyframeList {
-  std::vector<std::string> names;  ///< that the value can have, one and the same in the whole list
+  std::vector<std::string> names;  ///< possible names of the value; a list uses one of them throughout
   std::vector<Keyframe>* keyframes = nullptr;
-  std::function<void(std::size_t)> set_name = {};  ///< called with the place in `names` of the one that was used
-  std::size_t name = 0;                            ///< the place of the one that holds
+  std::function<void(std::size_t)> set_name = {};  ///< called with the index in `names` of the name that was used
+  std::size_t name = 0;                            ///< index of the current name
 };
 
-/// Vertices of the cloth, in the forms that [cloth] pins takes; ascending, each once.
+/// Vertices of the cloth, in the forms that [cloth] pins accepts; ascending, without duplicates.
 struct VertexSelection {
   std::vector<int>* vertices = nullptr;
 };
@@ -50,12 +49,12 @@ struct VertexSelection {
 /// Three formulas, ["-x", "-y", "0"].
 struct FormulaList {
   std::array<std::string, 3>* formulas = nullptr;
-  /// What is wrong with a formula, as the end of a sentence that has named it; nothing if it is fine.
+  /// Checks a formula. Returns the problem as the end of a sentence that names the formula, or nothing.
   std::function<std::optional<std::string>(const std::string&)> problem;
 };
 
-/// One key of a settings table: its name, the variable its value is written to, which values make sense, and one
-/// sentence that says what it means. Readers, error messages and the reference pages are all made from this.
+/// One key of a settings table: name, target variable, valid range and a sentence of help. Readers, error messages and
+/// reference pages are all made from it.
 struct Key {
   using Target = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, CustomValue,
                               KeyframeList, VertexSelection, FormulaList, Eigen::Vector2i*, Eigen::Vector3d*,
@@ -67,7 +66,7 @@ struct Key {
   std::string unit;  ///< "m", "N/m", "1/s²"; empty for a pure number
   std::string help;
   bool required = false;
-  std::vector<std::string> alternatives = {};  ///< a required key may be left out where one of these is given
+  std::vector<std::string> alternatives = {};  ///< a required key may be left out if one of these is given
   double minimum = -std::numeric_limits<double>::infinity();  ///< applies to every component of a vector
   double maximum = std::numeric_limits<double>::infinity();
   bool minimum_excluded = false;
@@ -84,7 +83,7 @@ struct Key {
 /// The keys of one table, in the order in which a reference page lists them.
 class Keys {
  public:
-  /// Adds a key whose value goes to `target`, which must outlive this object. Returns it, to state its limits.
+  /// Adds a key that writes to `target`, which must outlive this object. Returns the key, to set its limits.
   Key& add(std::string name, Key::Target target, std::string unit, std::string help) {
     return keys_.emplace_back(
         Key{.name = std::move(name), .target = std::move(target), .unit = std::move(unit), .help = std::move(help)});
@@ -98,7 +97,7 @@ class Keys {
     return add(std::move(name), std::move(choice), "", std::move(help));
   }
 
-  /// The same for a choice that stays open without the key.
+  /// Adds such a choice whose default is open.
   template <class Enum>
   Key& choice(std::string name, std::optional<Enum>& target, std::vector<std::string> names, std::string help) {
     Choice choice{std::move(names), [&target](std::size_t index) { target = static_cast<Enum>(index); },
@@ -106,11 +105,11 @@ class Keys {
     return add(std::move(name), std::move(choice), "", std::move(help));
   }
 
-  /// Says what there is instead of a key that there was.
+  /// Registers the advice for a key that was removed.
   void replace(const std::string& name, std::string advice) { replaced_[name] = std::move(advice); }
 
   [[nodiscard]] const std::deque<Key>& all() const { return keys_; }
-  /// Keys that there were, and what there is instead of them.
+  /// Returns the removed keys and the advice for each.
   [[nodiscard]] const std::map<std::string, std::string>& replaced() const { return replaced_; }
 
  private:

@@ -13,8 +13,8 @@
 namespace drape {
 namespace {
 
-/// What follows `key` and `separator` in the first line of the file that starts with the key, without blanks and quotes
-/// around it.
+/// Returns the text after `key` and `separator` in the first line that starts with the key, without surrounding blanks
+/// and quotes.
 std::string value_in(const char* file, std::string_view key, char separator) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
@@ -28,7 +28,7 @@ std::string value_in(const char* file, std::string_view key, char separator) {
 }
 
 std::vector<std::string> processor_flags() {
-  // Those that decide how floating-point code is compiled or dispatched.
+  // Flags that decide how floating-point code is compiled or dispatched.
 #ifdef __aarch64__
   constexpr const char* key = "Features";
 #else

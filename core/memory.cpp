@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What this process holds already [bytes]; 0 where the system does not say.
+/// Memory of this process [bytes]; 0 if the system does not report it.
 struct Held {
   double mapped = 0, resident = 0;
 };
@@ -31,10 +31,10 @@ Held held(const fs::path& root, double page_size) {
 
 std::optional<double> number_in(const fs::path& file) {
   double number = 0;
-  return std::ifstream(file) >> number ? std::optional(number) : std::nullopt;  // "max" is none
+  return std::ifstream(file) >> number ? std::optional(number) : std::nullopt;  // "max" is no number: unlimited
 }
 
-/// How a version of control groups calls its files.
+/// Names of the files of one version of control groups.
 struct GroupFiles {
   const char *limit, *usage, *inactive, *active;
 };
@@ -42,7 +42,7 @@ constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes",
                                "total_active_file"};
 constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file", "active_file"};
 
-/// The file cache of a group, which the kernel gives up before it kills [bytes].
+/// Returns a group's file cache, which the kernel reclaims before it kills a process [bytes].
 double reclaimable(const fs::path& group, const GroupFiles& files) {
   double sum = 0;
   std::ifstream stream(group / "memory.stat");
@@ -53,7 +53,7 @@ double reclaimable(const fs::path& group, const GroupFiles& files) {
   return sum;
 }
 
-/// What the control groups of this process leave it [bytes].
+/// Returns the memory that the control groups still grant this process [bytes].
 double left_in_groups(const fs::path& root) {
   double least = std::numeric_limits<double>::infinity();
   for (const ControlGroup& group : control_groups("memory", root)) {

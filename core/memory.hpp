@@ -5,20 +5,20 @@
 
 namespace drape {
 
-/// What this process may still take [bytes]: the least of what is left of
-///   the machine's physical memory, less what the process holds of it,
-///   its address space, where that is limited (RLIMIT_AS),
-///   the memory of the control groups it is in, versions 1 and 2, less what they can reclaim of it (the file cache).
-/// @param root  where /proc and /sys are
+/// Returns the memory that this process may still take [bytes]: the least of
+///   the machine's physical memory, less the memory of the process,
+///   the rest of its address space, if that is limited (RLIMIT_AS),
+///   the rest of its control groups' memory, versions 1 and 2; their file cache counts as free.
+/// @param root  folder that holds /proc and /sys
 double memory_left(const std::filesystem::path& root = "/");
 
-/// What this process may still map, where that is limited (RLIMIT_AS, ulimit -v) [bytes]; infinite where it is not.
+/// Returns the address space that this process may still map [bytes]; infinite without a limit (RLIMIT_AS, ulimit -v).
 double address_space_left(const std::filesystem::path& root = "/");
 
-/// Refuses what cannot fit before it is begun, so that it fails with a figure and not after minutes of swapping.
-/// @param what   the subject of the message: "a sparse factor of 1000000 rows"
-/// @param bytes  what it will take beside what the process holds already
-/// @param remedy what to do about it, as in "take a coarser cloth"
+/// Rejects a task that needs too much memory before it starts, instead of after minutes of swapping.
+/// @param what   subject of the message: "a sparse factor of 1000000 rows"
+/// @param bytes  memory needed in addition to that in use
+/// @param remedy advice, as in "take a coarser cloth"
 /// @throws UsageError with the figures if that is more than memory_left()
 void require_memory(const std::string& what, double bytes, const std::string& remedy);
 

@@ -12,7 +12,7 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-/// Whether a text has one: those of ASCII, and those of Unicode from U+0080 to U+009F.
+/// Returns true for a text with a control character of ASCII, or of Unicode from U+0080 to U+009F.
 bool has_control_character(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
@@ -22,7 +22,7 @@ bool has_control_character(std::string_view text) {
   return false;
 }
 
-/// A text cut to so many bytes, not within a character of UTF-8.
+/// Cuts a text to at most `longest` bytes, at the boundary of a UTF-8 character.
 std::string_view cut(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return text;
   std::size_t end = longest;
@@ -30,7 +30,7 @@ std::string_view cut(std::string_view text, std::size_t longest) {
   return text.substr(0, end);
 }
 
-/// The beginning of a name, for a message.
+/// Returns the beginning of a name, for a message.
 std::string beginning(std::string_view name) {
   constexpr std::size_t most_shown = 80;
   return shown(cut(name, most_shown)) + (name.size() > most_shown ? "…" : "");
@@ -73,7 +73,7 @@ std::string as_name_in_folder(std::string_view text, std::size_t longest) {
 void require_inside(const fs::path& place, const fs::path& folder) {
   std::error_code error;
   const fs::path root = fs::canonical(folder, error);
-  if (error) return;  // there is nothing that could lead anywhere
+  if (error) return;  // a missing folder has no links
   fs::path at = root;
   for (const fs::path& part : place.lexically_relative(folder)) {
     if (part == "..") refuse_link(place, folder);
@@ -89,7 +89,7 @@ void require_inside(const fs::path& place, const fs::path& folder) {
 void require_links_inside(const fs::path& folder) {
   std::error_code error;
   const fs::path root = fs::canonical(folder, error);
-  if (error) return;  // whoever opens it says what is wrong
+  if (error) return;  // opening the folder will report the problem
   const auto skip = fs::directory_options::skip_permission_denied;
   for (fs::recursive_directory_iterator entry(root, skip, error), end; !error && entry != end; entry.increment(error)) {
     if (!entry->is_symlink(error)) continue;

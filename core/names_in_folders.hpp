@@ -7,27 +7,27 @@
 
 namespace drape {
 
-/// The most bytes of such a name: hidden and temporary files, whose names are longer, fit into the 255 of a folder.
+/// Greatest length of such a name [bytes]: longer names of hidden and temporary files still fit into a folder's 255.
 inline constexpr std::size_t longest_name = 200;
 
-/// Takes a name from a file, which may be a stranger's, as the name of a file or folder in one folder.
-/// It has 1 to `longest_name` bytes, no separator, no control character and no dot at its beginning.
-/// @param file that says the name, for the message
-/// @param key  under which it says so
+/// Validates a name read from a file, which may be untrusted, as the name of a file or folder in one folder.
+/// A valid name has 1 to `longest_name` bytes, no separator, no control character and no leading dot.
+/// @param file that holds the name, for the message
+/// @param key  of the name in that file
 /// @returns the name
 /// @throws UsageError "file: key: …" for any other name
 std::string name_in_folder(std::string_view name, const std::filesystem::path& file, std::string_view key);
 
-/// Makes such a name of a text: other bytes take the place of what it may not have, and what is too long is cut.
-/// @param longest of the name [bytes]
+/// Turns a text into such a name: replaces forbidden bytes and cuts the end of a long text.
+/// @param longest greatest length of the name [bytes]
 std::string as_name_in_folder(std::string_view text, std::size_t longest = longest_name);
 
-/// Looks at one path in a folder.
-/// @throws UsageError if links lead from there out of the folder, or nowhere
+/// Checks one path in a folder for links.
+/// @throws UsageError if a link on the path leads out of the folder or is broken
 void require_inside(const std::filesystem::path& place, const std::filesystem::path& folder);
 
-/// Looks at all links in a folder and in those below it. The folder itself may be a link, or not exist.
-/// @throws UsageError if one leads out of the folder, or nowhere
+/// Checks all links in a folder and its subfolders. The folder itself may be a link, or not exist.
+/// @throws UsageError if one leads out of the folder or is broken
 void require_links_inside(const std::filesystem::path& folder);
 
 }  // namespace drape

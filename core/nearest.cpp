@@ -34,7 +34,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest_name(std::string_view name, std::span<const std::string> names) {
-  // Names are short. Beyond this the quadratic distance would only cost time.
+  // Names are short: for a longer text the quadratic distance would only cost time.
   constexpr std::size_t longest_name = 64;
   if (name.size() > longest_name) return {};
 

@@ -12,13 +12,13 @@
 namespace drape {
 namespace {
 
-/// Of the processors' time, what a group may take; 0 where it has no limit.
+/// Returns the number of processors whose time a group may use; 0 without a limit.
 double share_of(const ControlGroup& group) {
   double quota = 0, period = 0;
   if (group.version == 2) {
-    std::ifstream(group.folder / "cpu.max") >> quota >> period;  // "max 100000" is none
+    std::ifstream(group.folder / "cpu.max") >> quota >> period;  // "max 100000": no limit
   } else {
-    std::ifstream(group.folder / "cpu.cfs_quota_us") >> quota;  // -1 is none
+    std::ifstream(group.folder / "cpu.cfs_quota_us") >> quota;  // -1: no limit
     std::ifstream(group.folder / "cpu.cfs_period_us") >> period;
   }
   return quota > 0 && period > 0 ? quota / period : 0;
@@ -30,7 +30,8 @@ int processors_left(const std::filesystem::path& root) {
   cpu_set_t allowed;
   int left = sched_getaffinity(0, sizeof allowed, &allowed) == 0
                  ? CPU_COUNT(&allowed)
-                 : static_cast<int>(std::thread::hardware_concurrency());  // more than such a set can tell
+                 : static_cast<int>(
+                       std::thread::hardware_concurrency());  // the machine has more processors than the set can hold
   for (const ControlGroup& group : control_groups("cpu", root)) {
     const double share = share_of(group);
     if (share > 0 && share < left) left = static_cast<int>(std::ceil(share));

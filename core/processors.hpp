@@ -4,9 +4,9 @@
 
 namespace drape {
 
-/// How many threads of this process can run at once, at least one: on the processors that it may use (taskset, a
-/// cluster's share), and within the time of them that its control groups have (a container's --cpus), rounded up.
-/// @param root where /proc and /sys are
+/// Returns how many threads of this process can run at once, at least one. It counts the processors of its affinity
+/// (taskset, a cluster's share), limited by its control groups' processor time (a container's --cpus), rounded up.
+/// @param root folder that holds /proc and /sys
 int processors_left(const std::filesystem::path& root = "/");
 
 }  // namespace drape

@@ -25,9 +25,9 @@ namespace {
   fail(file, "the file cannot be read: " + std::generic_category().message(errno));
 }
 
-/// What may be opened without waiting for ever, and has an end.
+/// Accepts regular files and pipes: they have an end, and opening them does not block for ever.
 void require_readable_kind(const std::filesystem::path& file) {
-  // The system would take such a name for what is before the zero.
+  // System calls read a name only up to the first zero byte.
   if (file.native().find('\0') != std::string::npos) fail(file, "no such file");
   struct stat status {};
   if (stat(file.c_str(), &status) != 0) fail_by_system(file);
@@ -57,7 +57,7 @@ std::string read_file(const std::filesystem::path& file, std::size_t limit) {
   struct stat status {};
   const bool known = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
   const std::size_t expected = known ? static_cast<std::size_t>(status.st_size) : 0;
-  // What is longer is not read at all; a pipe tells only by going on. One byte more than expected sees the end.
+  // A file over the limit is not read at all; a pipe shows its size only by reading. One more byte detects the end.
   constexpr std::size_t least = 1 << 16;
   std::string bytes(std::min(std::max(expected, least), limit) + 1, '\0');
   std::size_t size = 0;

@@ -13,7 +13,7 @@ SharedLibrary::SharedLibrary(std::string title, const std::vector<std::string>& 
     : title_(std::move(title)), task_(task) {
   std::string reason;
   for (const std::string& name : names) {
-    // RTLD_LOCAL: OSMesa and EGL define functions of the same names and may live in the same process.
+    // RTLD_LOCAL: OSMesa and EGL define functions of the same names and may be loaded together.
     handle_ = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle_ != nullptr) return;
     if (reason.empty()) reason = dlerror();

@@ -5,19 +5,19 @@
 
 namespace drape {
 
-/// A shared library that is loaded at run time: linking it would cost every start of the program. It stays loaded until
-/// the process ends: LLVM inside Mesa does not survive unloading.
+/// A shared library that is loaded at run time, because linking it would slow every start of the program. It stays
+/// loaded until the process ends: LLVM inside Mesa does not survive unloading.
 class SharedLibrary {
  public:
-  /// Loads the first of these that is there.
-  /// @param title    what to call it in messages, as in "OSMesa"
-  /// @param packages the Debian packages that bring it
-  /// @param task     what it is loaded for, in messages
-  /// @throws OutputError if none is
+  /// Loads the first of `names` that is installed.
+  /// @param title    name in messages, as in "OSMesa"
+  /// @param packages Debian packages that contain it
+  /// @param task     purpose of the library, in messages
+  /// @throws OutputError if none can be loaded
   SharedLibrary(std::string title, const std::vector<std::string>& names, const char* packages,
                 const char* task = "draw");
 
-  /// Finds a function by its name.
+  /// Looks up a function by its name.
   /// @throws OutputError if the library has none
   template <class Function>
   void fetch(const char* name, Function& function) const {

@@ -4,10 +4,10 @@
 
 namespace drape {
 
-/// A word as a shell takes it for one: between quotes if it has to be.
+/// Quotes a word for the shell if it needs quotes.
 std::string shell_word(const std::string& word);
 
-/// A file as a word of a command, which takes no name for an option.
+/// Quotes a file name for the shell and prefixes "./" if it begins with a dash, so that it cannot be an option.
 std::string shell_file(const std::string& file);
 
 }  // namespace drape

@@ -47,7 +47,7 @@ void Spool::open(const std::filesystem::path& folder) {
 }
 
 void Spool::append(std::string_view bytes) {
-  if (bytes.empty()) return;  // of which there may be no address
+  if (bytes.empty()) return;  // an empty view may have no address
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_.get()) != bytes.size()) fail(errno);
   size_ += bytes.size();
 }

@@ -11,32 +11,32 @@
 
 namespace drape {
 
-/// Bytes that are kept on disk until they can be written where they belong. The file has no name, so nothing is left of
-/// it whatever happens to the process.
+/// Bytes kept on disk until they can be written to their destination. The file has no name, so that nothing remains of
+/// it even if the process is killed.
 class Spool {
  public:
-  /// @param output what the bytes are for: the spool lies in its folder, and messages name it
-  /// @param kept   what they are: "its frames"
+  /// @param output destination of the bytes: the spool lies in its folder, and messages name it
+  /// @param kept   name of the bytes: "its frames"
   /// @throws OutputError
   Spool(const PartialFile& output, std::string kept);
 
-  /// Bytes that belong nowhere: they lie in the system's folder for temporary files.
-  /// @param kept what they are: "the motion"
+  /// Keeps bytes without a destination in the system's folder for temporary files.
+  /// @param kept name of the bytes: "the motion"
   /// @throws OutputError
   explicit Spool(std::string kept);
 
-  /// @throws OutputError naming the system's reason, a full disk above all
+  /// Appends bytes. @throws OutputError with the system's reason, such as a full disk
   void append(std::string_view bytes);
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// Goes back to the first byte. Nothing can be appended after that; it can be gone back to again.
+  /// Returns to the first byte, any number of times. No append() may follow.
   void rewind();
 
-  /// The next bytes. Never ask for more than there are.
+  /// Reads the next bytes; `count` must not exceed the rest.
   void read(void* bytes, std::size_t count);
 
-  /// Writes all of it to a file.
+  /// Writes all bytes to a file.
   void copy_to(PartialFile& file);
 
  private:
@@ -47,7 +47,7 @@ class Spool {
 
   void open(const std::filesystem::path& folder);
 
-  std::string problem_;  // what is said before the system's reason
+  std::string problem_;  // beginning of a message, before the system's reason
   std::unique_ptr<std::FILE, Close> stream_;
   std::uint64_t size_ = 0;
 };

@@ -17,14 +17,14 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-/// How long a new folder may be without its lock [s].
+/// Time within which a new folder gets its lock [s].
 constexpr std::time_t unlocked = 60;
 
 int open_folder(const fs::path& folder) {
   return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
-/// Removes a folder of this user that nobody holds any more.
+/// Removes a folder of this user that no process has locked any more.
 void clear_folder(const fs::path& folder) {
   const int descriptor = open_folder(folder);
   if (descriptor < 0) return;
@@ -58,7 +58,8 @@ TemporaryFolder::TemporaryFolder(const std::string& kind) {
   }
   path_ = name;
   descriptor_ = open_folder(path_);
-  static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));  // where folders cannot be locked, none is cleared away
+  static_cast<void>(
+      ::flock(descriptor_, LOCK_EX | LOCK_NB));  // on file systems without locks no folder is cleared away
 }
 
 TemporaryFolder::~TemporaryFolder() {

@@ -5,13 +5,13 @@
 
 namespace drape {
 
-/// A folder of this user alone among the system's temporary files, which lives as long as this.
+/// A private folder among the system's temporary files; removed by the destructor.
 ///
-/// It is locked (flock) all the time. One that is not was left by a process that was killed: it goes when the next
-/// folder of its kind is made.
+/// It is locked (flock) while it is in use. An unlocked one is left over from a killed process; creating the next
+/// folder of its kind removes it.
 class TemporaryFolder {
  public:
-  /// @param kind what its name begins with: "drape-scene"
+  /// @param kind beginning of its name: "drape-scene"
   /// @throws OutputError
   explicit TemporaryFolder(const std::string& kind);
   ~TemporaryFolder();

@@ -13,11 +13,11 @@ namespace {
 constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
 
 struct Character {
-  std::size_t length = 0;  // bytes; 0: no UTF-8 (RFC 3629)
+  std::size_t length = 0;  // [bytes]; 0: invalid UTF-8 (RFC 3629)
   std::uint32_t code = 0;
 };
 
-/// The character that a text begins with.
+/// Decodes the first character of a text.
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
   const std::uint32_t first = byte(0);
@@ -34,7 +34,7 @@ Character first_character(std::string_view text) {
   return code < smallest[length] || code > 0x10FFFF || surrogate ? Character{} : Character{length, code};
 }
 
-/// Characters without a shape of their own, which end lines or turn the direction of writing (Unicode, annex 9).
+/// Returns true for invisible characters that end lines or change the direction of writing (Unicode, annex 9).
 bool is_unseen(std::uint32_t code) {
   return code == 0x061C || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
          (code >= 0x2066 && code <= 0x2069);
@@ -47,8 +47,8 @@ bool is_printable(const Character& c) {
   return c.code == '\n' || c.code == '\t' || !is_control(c.code);
 }
 
-/// Whether a build server may take what begins here for a command: GitHub "::" at the begin of a line and "##[", Azure
-/// "##vso[".
+/// Returns true if a build server may take this position for a command: GitHub "::" at the start of a line and "##[",
+/// Azure "##vso[".
 bool is_command(std::string_view text, std::size_t at) {
   const std::string_view here = text.substr(at);
   if (here.starts_with("##[") || here.starts_with("##vso[")) return true;

@@ -5,8 +5,8 @@
 namespace drape {
 namespace {
 
-constexpr std::size_t least_room = 20;      // columns that an indent has to leave
-constexpr std::size_t description_at = 30;  // CLI11's column of descriptions
+constexpr std::size_t least_room = 20;      // columns that must remain after the indent
+constexpr std::size_t description_at = 30;  // column of CLI11's descriptions
 
 std::size_t indent_of(std::string_view line) {
   const std::size_t first = line.find_first_not_of(' ');
@@ -20,7 +20,7 @@ std::string wrapped_line(std::string_view line, std::size_t width, std::size_t i
   std::size_t used = begin;
   bool at_start = true;  // of a line of the result
   for (std::size_t at = begin; at < line.size();) {
-    // A word with the spaces before it, which are as many as were written unless the line is broken there.
+    // A word with the spaces before it; they are dropped only where the line is broken.
     const std::size_t word = std::min(line.find_first_not_of(' ', at), line.size());
     const std::size_t end = std::min(line.find(' ', word), line.size());
     const std::string_view spaces = line.substr(at, word - at), letters = line.substr(word, end - word);

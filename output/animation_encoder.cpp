@@ -24,7 +24,7 @@ OutputFormat animation_format(const std::string& form, const std::string& made_b
   return {.extension = "." + form,
           .help = help,
           .made_by = made_by,
-          .packages = "libopencv-dev",  // which brings these libraries
+          .packages = "libopencv-dev",  // depends on these libraries
           .make = FilmMaker<Image>([form](const std::filesystem::path& file, const FilmInfo& film) {
             return std::make_unique<AnimationEncoder>(file, form, film.fps, film.width, film.height);
           })};
@@ -38,7 +38,7 @@ AnimationEncoder::AnimationEncoder(const std::filesystem::path& file, std::strin
   attempt([&] { codecs().begin_animation(file_.temporary().string(), form_, fps_, {width, height}); });
 }
 
-/// Does what the library may fail at.
+/// Runs a library call and turns its failure into an OutputError.
 template <class Work>
 void AnimationEncoder::attempt(Work work) {
   try {

@@ -8,12 +8,11 @@
 
 namespace drape {
 
-/// An animated picture of all colours that repeats for ever: WebP, whose pixels are nearly those that were drawn, and
-/// exactly where nothing moves, or APNG, whose are exactly. Frame k is shown from k/fps on, to the
-/// millisecond in which WebP counts.
+/// An animated picture in full colour that repeats for ever: WebP, almost exact and exact where nothing moves, or APNG,
+/// exact. Frame k is shown from k/fps on, in WebP to the millisecond.
 class AnimationEncoder final : public Encoder {
  public:
-  /// @param form as Codecs::begin_animation() has it
+  /// @param form as in Codecs::begin_animation()
   /// @throws UsageError if fps is not within 0.01 … 90, OutputError if there is no encoder
   AnimationEncoder(const std::filesystem::path& file, std::string form, double fps, int width, int height);
 

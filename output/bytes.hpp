@@ -19,16 +19,16 @@ void append_number(std::string& bytes, std::type_identity_t<Number> number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
-/// @throws OutputError if numbers were too large for single precision, in which they are infinite
+/// @throws OutputError if a number was too large for single precision and became infinite
 template <class Singles>
 void require_single_precision(const Singles& numbers) {
   if (numbers.allFinite()) return;
   throw OutputError("a position beyond 3.4e38 m does not fit into the single precision of .pc2 and .usda files");
 }
 
-/// Vertices one after the other, x, y, z of each.
-/// @tparam Number of the file
-/// @throws OutputError if one is too large for it
+/// Returns the bytes of all vertices: x, y, z of each.
+/// @tparam Number type of the file's numbers
+/// @throws OutputError if a coordinate is too large for it
 template <class Number>
 std::string vertex_bytes(const Vertices& vertices) {
   const Eigen::Matrix<Number, Eigen::Dynamic, 3, Eigen::RowMajor> rows = vertices.template cast<Number>();
@@ -36,7 +36,7 @@ std::string vertex_bytes(const Vertices& vertices) {
   return {reinterpret_cast<const char*>(rows.data()), static_cast<std::size_t>(rows.size()) * sizeof(Number)};
 }
 
-/// The bytes of a row of things that are plain numbers.
+/// Returns the bytes of a vector of trivially copyable items.
 template <class Thing>
 std::string_view bytes_of(const std::vector<Thing>& things) {
   static_assert(std::is_trivially_copyable_v<Thing>);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int around = 48, from_pole_to_pole = 24;
 
-/// Appends points and gives back the number of the first.
+/// Appends points and returns the index of the first.
 int append(Surface& surface, const Vertices& points) {
   const Eigen::Index first = surface.positions.rows();
   surface.positions.conservativeResize(first + points.rows(), 3);
@@ -22,7 +22,7 @@ int append(Surface& surface, const Vertices& points) {
 
 void append(Surface& surface, const SphereShape& sphere) {
   constexpr int rings = from_pole_to_pole - 1;
-  constexpr Eigen::Index poles = Eigen::Index{rings} * around;  // where they are
+  constexpr Eigen::Index poles = Eigen::Index{rings} * around;  // index of the first pole
   Vertices points(poles + 2, 3);
   for (int i = 0; i < rings; ++i) {
     const double polar = std::numbers::pi * (i + 1) / from_pole_to_pole;
@@ -60,7 +60,7 @@ GroundPatch ground_patch(const Vertices& cloth) {
 Vertices ground_corners(const GroundShape& ground, const GroundPatch& patch) {
   const Eigen::Vector3d& n = ground.normal;
   const Eigen::Vector3d middle = patch.middle + (ground.height - n.dot(patch.middle)) * n;
-  // For a level ground the sides are along x and y.
+  // The sides of a level ground are along x and y.
   const Eigen::Quaterniond turn = rotation_from_z(n);
   const Eigen::Vector3d x = patch.side / 2 * (turn * Eigen::Vector3d::UnitX()),
                         y = patch.side / 2 * (turn * Eigen::Vector3d::UnitY());

@@ -5,25 +5,25 @@
 
 namespace drape {
 
-/// What colliders look like, for formats that know nothing but triangles.
+/// Surface of colliders, for formats with only triangles.
 struct Surface {
   Vertices positions;  ///< n×3 [m]
   std::vector<Triangle> triangles;
 };
 
-/// Where a ground is shown, which has no end: around the cloth as it starts.
+/// Part of an infinite ground that is shown: a square around the initial cloth.
 struct GroundPatch {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of the cloth; what is shown lies below it [m]
-  double side = 4;                                   ///< of a square [m]
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of the cloth; projected onto the ground [m]
+  double side = 4;                                   ///< side of the square [m]
 };
 
-/// Four times as wide as a cloth.
+/// Returns a patch four times as wide as the cloth.
 GroundPatch ground_patch(const Vertices& cloth);
 
-/// The corners of a square of a ground, counterclockwise seen from above it: 4×3 [m].
+/// Returns the corners of a square of a ground, counterclockwise seen from above it: 4×3 [m].
 Vertices ground_corners(const GroundShape& ground, const GroundPatch& patch);
 
-/// All colliders as one surface: spheres inscribed, of 48 by 24 parts, and squares of grounds.
+/// Returns all colliders as one surface: inscribed spheres of 48 by 24 parts, and squares of grounds.
 Surface surface_of(const std::vector<Collider>& colliders, const GroundPatch& patch);
 
 }  // namespace drape

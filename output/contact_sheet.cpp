@@ -17,7 +17,7 @@ namespace {
 constexpr int gap = 6;  // [pixels]
 constexpr std::uint8_t paper = 255;
 
-/// Cuts rows off the bottom of a picture.
+/// Cuts rows off the bottom of a picture and returns them.
 Image cut_below(Image& picture, int rows) {
   Image below(picture.width, rows);
   const auto bytes = static_cast<std::ptrdiff_t>(below.pixels.size());
@@ -27,7 +27,7 @@ Image cut_below(Image& picture, int rows) {
   return below;
 }
 
-/// Puts a narrower picture below another, in the middle.
+/// Appends a narrower picture below another, centred.
 void put_below(Image& sheet, const Image& below) {
   const int left = (sheet.width - below.width) / 2, top = sheet.height;
   sheet.pixels.resize(sheet.pixels.size() + std::size_t{3} * sheet.width * below.height, paper);

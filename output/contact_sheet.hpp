@@ -8,14 +8,14 @@
 
 namespace drape {
 
-/// Whether an item is among `shown` evenly spread ones of `count`, of which the first and the last are two.
+/// Returns true if an item is among `shown` evenly spread ones of `count`, with the first and the last.
 bool is_spread(int index, int count, int shown);
 
-/// One picture of several moments of a film, evenly spread, the first and the last among them. What is below the last
-/// one's picture, legend and curves of the whole, stands once below them all.
+/// One picture of evenly spread moments of a film, with the first and the last. The legend and curves below the last
+/// picture appear once, below all.
 class ContactSheet final : public Encoder {
  public:
-  /// @param film whose `sheet` says how many there are
+  /// @param film film with a `sheet`
   /// @throws OutputError if the file cannot be written, or there is no font
   ContactSheet(std::filesystem::path file, const FilmInfo& film);
 
@@ -36,7 +36,7 @@ class ContactSheet final : public Encoder {
   Pen pen_;
   int added_ = 0;
   std::vector<Image> pictures_;
-  Image legend_;  // without rows where there is none
+  Image legend_;  // no rows: no legend
 };
 
 }  // namespace drape

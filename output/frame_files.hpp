@@ -11,15 +11,15 @@
 
 namespace drape {
 
-/// A file for every frame, each of which appears complete. Files of an earlier, longer sequence are left alone.
+/// One file per frame, each of which appears complete. Files of an earlier, longer sequence stay.
 template <class Item>
 class FrameFiles final : public Sink<Item> {
  public:
-  /// @param name  of the file of the frame with a number
-  /// @param bytes of a frame's file
+  /// @param name  returns the file name of a frame's number
+  /// @param bytes returns the content of a frame's file
   FrameFiles(std::function<std::string(int)> name, int first_frame, std::function<std::string(const Item&)> bytes)
       : name_(std::move(name)), frame_(first_frame), bytes_(std::move(bytes)) {
-    const PartialFile writable(name_(frame_));  // or it throws
+    const PartialFile writable(name_(frame_));  // throws if it is not writable
   }
 
   void add(const Item& item) override {
@@ -36,14 +36,14 @@ class FrameFiles final : public Sink<Item> {
   std::vector<OutputFile> files_;
 };
 
-/// One file, of the last frame added.
+/// A single file of the last frame added.
 template <class Item>
 class LastFrameFile final : public Sink<Item> {
  public:
-  /// @param last number of the last frame, from 0
+  /// @param last index of the film's last frame, from 0
   LastFrameFile(std::filesystem::path file, int last, std::function<std::string(const Item&)> bytes)
       : file_(std::move(file)), last_index_(last), bytes_(std::move(bytes)) {
-    const PartialFile writable(file_);  // or it throws
+    const PartialFile writable(file_);  // throws if it is not writable
   }
 
   void add(const Item& item) override { last_ = item; }

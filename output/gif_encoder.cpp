@@ -34,7 +34,7 @@ double checked_rate(const std::filesystem::path& file, double fps) {
 
 GifEncoder::GifEncoder(const std::filesystem::path& file, double fps, std::function<void(int, int)> progress)
     : fps_(checked_rate(file, fps)), file_(file), progress_(std::move(progress)), spool_(file_) {
-  codecs();  // read it back at the end; that they are missing is said now
+  codecs();  // finish() reads the file back: missing codecs are reported now
 }
 
 std::int64_t GifEncoder::start(int frame) const { return std::llround(frame * 100.0 / fps_); }
@@ -70,7 +70,7 @@ OutputFormat gif_format() {
   return {.extension = ".gif",
           .help = "looping animation, at most 50 frames per second",
           .made_by = {},
-          .packages = "libopencv-dev",  // reads it back
+          .packages = "libopencv-dev",  // reads the file back
           .make = FilmMaker<Image>([](const std::filesystem::path& file, const FilmInfo& film) {
             return std::make_unique<GifEncoder>(file, film.fps, film.progress);
           })};

@@ -10,10 +10,10 @@
 namespace drape {
 
 /// An animated GIF of 256 colours that repeats for ever. Frame k is shown from round(100·k/fps) to round(100·(k+1)/fps)
-/// hundredths of a second, the unit of the format, so that the rounding does not add up.
+/// hundredths of a second, the unit of the format, so that rounding errors do not accumulate.
 ///
-/// Goes through the film twice, as the colours are known only after the last frame: add() counts colours and keeps the
-/// frame on disk, finish() encodes. The memory it needs does not depend on the number of frames.
+/// Processes the film twice, because colours are known only after the last frame: add() counts colours and stores the
+/// frame on disk, finish() encodes. Its memory is independent of the number of frames.
 class GifEncoder : public Encoder {
  public:
   /// @throws UsageError if fps is not within 0.01 … 50

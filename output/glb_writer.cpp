@@ -13,7 +13,7 @@
 namespace drape {
 namespace {
 
-constexpr std::size_t most_frames = 3000;  // weights of all targets stand at each of the animation's times
+constexpr std::size_t most_frames = 3000;  // each time of the animation stores the weights of all targets
 constexpr std::size_t most_texture_bytes = 64'000'000;
 
 std::string material(const std::string& name, const Rgb& color, const std::string& more = {}) {
@@ -24,7 +24,7 @@ std::string material(const std::string& name, const Rgb& color, const std::strin
       name, linear[0], linear[1], linear[2], more);
 }
 
-/// The bytes of a texture that glTF can hold, a PNG or JPEG; empty: none.
+/// Returns the bytes of a texture that glTF supports, PNG or JPEG; empty: none.
 std::string texture_bytes(const Look& look, std::string& type) {
   if (look.texture.empty()) return {};
   std::string bytes = read_file(look.texture, most_texture_bytes);
@@ -33,7 +33,7 @@ std::string texture_bytes(const Look& look, std::string& type) {
   return bytes;
 }
 
-/// Pads a text to whole words.
+/// Pads a text to a multiple of 4 bytes.
 std::string padded(std::string text, char with) {
   while (text.size() % 4 != 0) text += with;
   return text;
@@ -114,7 +114,7 @@ std::string GlbWriter::json(GltfParts& parts, std::vector<std::string>& tail) {
                                    samplers.size(), node, path));
     samplers.push_back(fmt::format("{{\"input\": {}, \"output\": {}, \"interpolation\": \"LINEAR\"}}", input, output));
   };
-  std::vector<std::pair<std::size_t, bool>> morphed;  // nodes, and whether they move
+  std::vector<std::pair<std::size_t, bool>> morphed;  // index of the node, true if it moves
   const auto add_mesh = [&](const std::string& name, GltfMorphedMesh& mesh, int material_number,
                             const std::string& more) {
     const std::string primitive = mesh.describe(parts, material_number);
@@ -176,7 +176,7 @@ std::string GlbWriter::json(GltfParts& parts, std::vector<std::string>& tail) {
   tail.push_back(std::move(texture));
   std::vector<int> children;
   for (std::size_t i = 1; i <= nodes.size(); ++i) children.push_back(static_cast<int>(i));
-  // z up becomes y up by a turn of −90° about x.
+  // A rotation by −90° about x turns z up into y up.
   return fmt::format(
       "{{\"asset\": {{\"version\": \"2.0\", \"generator\": \"drape\"}}, \"scene\": 0, \"scenes\": [{{\"nodes\": "
       "[0]}}], "

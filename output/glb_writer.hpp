@@ -10,8 +10,8 @@
 
 namespace drape {
 
-/// The motion as binary glTF 2.0: the cloth with a morph target for each frame, whose weights an animation goes
-/// through, and what it may touch. In metres, turned so that y is up, as glTF has it; in single precision.
+/// Writes the motion as binary glTF 2.0: the cloth with one morph target per frame and an animation of their weights,
+/// and the colliders. In metres, rotated to glTF's y up, in single precision.
 class GlbWriter final : public MotionWriter {
  public:
   GlbWriter(const std::filesystem::path& file, const FilmInfo& film);
@@ -20,7 +20,7 @@ class GlbWriter final : public MotionWriter {
   std::vector<OutputFile> finish(Ending ending) override;
 
  private:
-  /// A sphere is a mesh around the origin, whose place is its node's.
+  /// A sphere: a mesh around the origin, placed by its node.
   struct Ball {
     SphereShape first;
     std::unique_ptr<Surface> surface;
@@ -28,7 +28,7 @@ class GlbWriter final : public MotionWriter {
     std::vector<float> places;
     bool moves = false;
   };
-  /// A body, or a ground, which rests.
+  /// A body, or a ground, which is static.
   struct Solid {
     std::string name;
     std::shared_ptr<const std::vector<Triangle>> triangles;

@@ -11,12 +11,12 @@
 
 namespace drape {
 
-/// A glTF file's JSON objects and the bytes that they refer to, as they are put together.
+/// JSON objects of a glTF file, and the layout of the bytes that they refer to.
 class GltfParts {
  public:
-  /// Adds a view of bytes that are written in this order. @returns its number
+  /// Adds a view of the next bytes in file order. @returns its index
   int add_view(std::uint64_t size, const std::string& more = {});
-  /// @param more fields beside the view: "\"componentType\": 5126, …" @returns its number
+  /// Adds an accessor. @param more fields beside the view: "\"componentType\": 5126, …" @returns its index
   int add_accessor(int view, std::uint64_t offset, std::uint64_t count, const std::string& more);
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
@@ -28,22 +28,21 @@ class GltfParts {
   std::vector<std::string> views_, accessors_;
 };
 
-/// A triangle mesh whose vertices move, as glTF has it: the first frame, and for each later one a morph target with the
-/// displacements from there. Its vertices wait on disk.
+/// A moving triangle mesh as glTF stores it: the first frame, and for each later one a morph target with the
+/// displacements from the first. Vertices are spooled to disk.
 class GltfMorphedMesh {
  public:
-  /// @param uvs    per triangle corner, or empty. A vertex with several of them becomes several, the others
-  ///               behind all vertices.
-  /// @param smooth normals of the vertices are written; otherwise triangles look flat
-  /// @param output for which its vertices wait
+  /// @param uvs    per triangle corner, or empty. A vertex with several is duplicated; duplicates follow all vertices.
+  /// @param smooth writes vertex normals; otherwise triangles look flat
+  /// @param output destination file, beside which vertices are spooled
   GltfMorphedMesh(const PartialFile& output, const std::vector<Triangle>& triangles,
                   const std::vector<std::array<float, 2>>& uvs, Eigen::Index vertices, bool smooth);
 
-  /// The next frame.
+  /// Adds the next frame.
   void add(const Vertices& x);
 
   [[nodiscard]] bool moves() const { return moves_; }
-  /// Adds its views and accessors, whose bytes write() writes then. @returns its primitive
+  /// Adds the views and accessors of the bytes that write() will write. @returns the mesh's primitive
   std::string describe(GltfParts& parts, int material);
   void write(PartialFile& file);
 
@@ -59,8 +58,8 @@ class GltfMorphedMesh {
 
   const std::vector<Triangle>& triangles_;
   bool smooth_, moves_ = false;
-  std::vector<int> vertex_of_;             // by glTF's vertex
-  std::vector<std::array<float, 2>> uvs_;  // likewise, or empty
+  std::vector<int> vertex_of_;             // per glTF vertex
+  std::vector<std::array<float, 2>> uvs_;  // per glTF vertex, or empty
   std::vector<std::uint32_t> indices_;
   Singles first_x_, first_n_;
   std::vector<Bounds> bounds_;

@@ -4,8 +4,8 @@
 
 namespace drape {
 
-/// The motion as a page that needs nothing but itself: a player turns the cloth, plays it and colours it by its
-/// stretch. Only the compressed motion is in memory.
+/// Writes the motion as a self-contained page whose player turns the cloth, plays it and colours it by stretch. Only
+/// the compressed motion is in memory.
 class HtmlWriter final : public MotionWriter {
  public:
   HtmlWriter(const std::filesystem::path& file, const FilmInfo& film);

@@ -8,7 +8,7 @@
 namespace drape {
 namespace {
 
-/// 0, −1, 1, −2, … become 0, 1, 2, 3, …
+/// Maps 0, −1, 1, −2, … to 0, 1, 2, 3, …
 std::uint64_t zigzag(std::int64_t number) {
   return (static_cast<std::uint64_t>(number) << 1) ^ static_cast<std::uint64_t>(number >> 63);
 }

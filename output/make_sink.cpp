@@ -9,15 +9,15 @@
 #include "core/nearest.hpp"
 #include "output/beside.hpp"
 #include "output/contact_sheet.hpp"
-#include "output/size_limited_encoder.hpp"
 #include "output/frame_files.hpp"
 #include "output/path_template.hpp"
 #include "output/registry.hpp"
+#include "output/size_limited_encoder.hpp"
 
 namespace drape {
 namespace {
 
-/// Makes the sinks of a film at one file.
+/// Makes a film's sink for one file.
 struct AtFile {
   const std::filesystem::path& file;
   const FilmInfo& film;
@@ -45,9 +45,9 @@ struct AtFile {
                                path, format.extension, quoted_list(others)));
 }
 
-/// Makes the sinks of a film at a file for each frame.
+/// Makes a film's sink for one file per frame.
 struct AtFiles {
-  const std::string& text;  // of the path
+  const std::string& text;  // text of the path
   const PathTemplate& path;
   const OutputFormat& format;
   const FilmInfo& film;

@@ -17,10 +17,10 @@
 namespace drape {
 namespace {
 
-constexpr double cloth_parts = 6000, edge_parts = 100;  // of the precision in the cloth's size and in an edge
-constexpr double farthest = 1e8;                        // in precisions: differences of three fit into 32 bits
+constexpr double cloth_parts = 6000, edge_parts = 100;  // precisions in the cloth's size and in an edge
+constexpr double farthest = 1e8;                        // [precision]; differences of three positions fit into 32 bits
 constexpr int most_texture_pixels = 256;
-constexpr double texture_parts = 4096;  // of a texture coordinate
+constexpr double texture_parts = 4096;  // steps per texture coordinate
 constexpr double least_strain = 0.0005, strain_steps = 48;
 
 double mean_edge(const Vertices& x, const std::vector<Triangle>& triangles) {
@@ -45,10 +45,10 @@ void append_triangles(const std::vector<Triangle>& triangles, std::string& bytes
   }
 }
 
-/// "[0.85, 0.65, 0.13]"
+/// Returns "[0.85, 0.65, 0.13]".
 std::string list(const Rgb& color) { return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", color.r, color.g, color.b); }
 
-/// A texture as a PNG file of at most so many pixels a side.
+/// Returns a texture as a PNG file of at most most_texture_pixels a side.
 /// @throws OutputError if it cannot be read
 std::string small_texture(const std::filesystem::path& file) {
   try {
@@ -76,7 +76,7 @@ void append_floats(std::initializer_list<double> numbers, std::string& bytes) {
 
 }  // namespace
 
-/// A zlib stream that grows.
+/// A growing zlib stream.
 class MotionPacker::Compressor {
  public:
   Compressor() {

@@ -16,27 +16,26 @@ namespace drape {
 
 /// Packs a motion for the player of a page, frame by frame: cloth, its stretch, bodies, spheres and grounds.
 ///
-/// Positions become whole multiples of a precision, which is the smaller of 1/6000 of the cloth's size and 1/100 of its
-/// mean edge. Stretch e is kept as the whole number nearest to 48 log₂(1 + e/0.0005), to 1 % of its value. What is kept
-/// is compressed as it comes, so only the compressed bytes are in memory.
+/// Positions become integer multiples of a precision, the smaller of 1/6000 of the cloth's size and 1/100 of its mean
+/// edge. Stretch e is stored as 48 log₂(1 + e/0.0005), rounded to an integer, which keeps 1 % of its value. Data is
+/// compressed at once, so only compressed bytes are in memory.
 class MotionPacker {
  public:
-  /// The largest motion that a browser holds [positions of vertices].
+  /// Largest motion that a browser can hold [vertex positions].
   static constexpr std::size_t most_positions = 16'000'000;
 
-  /// @param film what it refers to outlives it. Without a cloth the first frame is its rest.
+  /// @param film its references must stay valid. Without a cloth the first frame is the rest state.
   explicit MotionPacker(const FilmInfo& film);
   ~MotionPacker();
 
-  /// @throws OutputError if the texture cannot be read, if the motion is larger than `most_positions`, which the first
-  /// frame tells already, or a position
-  ///                     is beyond 10⁸ times the precision
+  /// Adds a frame. @throws OutputError if the texture cannot be read, if the motion exceeds `most_positions`, detected
+  /// at the first frame, or if a position is beyond 10⁸ times the precision
   void add(const Frame& frame);
 
   /// Returns the number of frames added.
   [[nodiscard]] int frames() const { return frames_; }
 
-  /// Completes the motion, of at least one frame. Call it once.
+  /// Completes the motion, which must have a frame. Call it once.
   [[nodiscard]] html::PlayedMotion finish();
 
  private:
@@ -57,14 +56,14 @@ class MotionPacker {
   ColorScale scale_;
   std::optional<VertexStretch> stretch_;
   std::optional<IntegerTrack> strain_;
-  std::vector<Mesh> meshes_;  // the cloth and the bodies
+  std::vector<Mesh> meshes_;  // cloth and bodies
   GroundPatch patch_;
   std::string texture_;  // a PNG file; empty: none
   std::unique_ptr<Compressor> compressor_;
   Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
-  Eigen::RowVector3d lowest_, highest_;  // of the cloth and all things in all frames
+  Eigen::RowVector3d lowest_, highest_;  // bounds of cloth and colliders in all frames
   double precision_ = 1, time_ = 0;
-  std::size_t positions_ = 0;  // of vertices in a frame
+  std::size_t positions_ = 0;  // vertices per frame
   int spheres_ = 0, grounds_ = 0, frames_ = 0;
 };
 

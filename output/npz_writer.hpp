@@ -11,21 +11,21 @@
 
 namespace drape {
 
-/// An array of numpy that grows by rows: its bytes wait on disk until its file can be put into the archive.
+/// A numpy array that grows by rows. Its bytes wait on disk until they are copied into the archive.
 class NpyArray {
  public:
-  /// @param type    as numpy's descr has it, with its quotes or brackets: "'<f8'"
-  /// @param row     the shape of a row: {n, 3} for an array of the shape (rows, n, 3)
+  /// @param type    numpy's descr, with its quotes or brackets: "'<f8'"
+  /// @param row     shape of a row: {n, 3} for an array of the shape (rows, n, 3)
   NpyArray(const PartialFile& output, std::string name, std::string type, std::vector<std::size_t> row);
 
   void append(std::string_view row);
   void append_rows(std::size_t count, std::string_view bytes);
 
   [[nodiscard]] std::string file_name() const { return name_ + ".npy"; }
-  /// What comes before the numbers (NEP 1, version 1.0).
+  /// Returns the bytes before the numbers (NEP 1, version 1.0).
   [[nodiscard]] std::string header() const;
   [[nodiscard]] std::uint64_t data_size() const { return data_.size(); }
-  /// Of header and numbers.
+  /// Returns the checksum of header and numbers.
   [[nodiscard]] std::uint32_t crc32() const;
   void copy_to(PartialFile& file);
 
@@ -37,8 +37,8 @@ class NpyArray {
   std::uint32_t crc32_ = 0;  // of the numbers
 };
 
-/// The motion as an archive of numpy's arrays, whose names docs/outputs.md lists. Its memory does not grow with the
-/// motion; its arrays wait beside it on disk, since an archive takes one after the other.
+/// Writes the motion as an archive of numpy arrays, listed in docs/outputs.md. Its memory does not grow with the
+/// motion: arrays wait on disk, because an archive stores them one after the other.
 class NpzWriter final : public MotionWriter {
  public:
   NpzWriter(const std::filesystem::path& file, const FilmInfo& film);
@@ -55,12 +55,12 @@ class NpzWriter final : public MotionWriter {
   std::vector<std::unique_ptr<NpyArray>> arrays_;
   struct {
     NpyArray *positions, *velocities, *times, *frames, *energies, *spheres, *grounds;
-  } of_ = {};  // of the motion; into arrays_
-  /// The places of a body. One that rests is written once.
+  } of_ = {};  // arrays of the motion; pointers into arrays_
+  /// Positions of a body; a static one is written once.
   struct Body {
     NpyArray* positions;
     std::shared_ptr<const std::vector<Triangle>> triangles;
-    std::string first;  // its place in the first frame
+    std::string first;  // positions in the first frame
     bool moves = false;
   };
   void add_bodies(const Frame& frame);

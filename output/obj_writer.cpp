@@ -13,7 +13,7 @@
 namespace drape {
 namespace {
 
-/// What is the same in all frames: the lines vt and f.
+/// Returns the lines that all frames share: vt and f.
 std::string surface_lines(const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs) {
   std::string coordinates, faces;
   std::map<std::array<float, 2>, std::size_t> numbers;
@@ -38,7 +38,7 @@ void append_vertices(const Vertices& positions, std::string& text) {
   }
 }
 
-/// Appends spheres and bodies as objects whose vertices follow `before` others.
+/// Appends spheres and bodies as objects, after `before` vertices.
 void append_objects(const std::vector<Collider>& colliders, Eigen::Index before, std::string& text) {
   int spheres = 0, bodies = 0;
   for (const Collider& collider : colliders) {

@@ -12,10 +12,10 @@ class PathTemplate {
   /// @throws UsageError that names the valid placeholders if it has an unknown one
   explicit PathTemplate(std::string_view text);
 
-  /// Whether the path contains {frame}, so that each frame has a file of its own.
+  /// Returns true if the path contains {frame}, so that each frame has its own file.
   [[nodiscard]] bool has_frame() const;
 
-  /// @param default_width digits of a {frame} that does not say how many; larger numbers get as many as they need
+  /// @param default_width digits of a {frame} without a width; larger numbers get as many as they need
   /// @throws UsageError if the scene's name leads out of a folder, see name_in_folder()
   [[nodiscard]] std::string path(std::string_view scene, int frame, int default_width) const;
 
@@ -23,7 +23,7 @@ class PathTemplate {
   struct Piece {
     enum class Kind { text, scene, frame } kind;
     std::string text;
-    int width = 0;  // of a frame's number; 0: the default
+    int width = 0;  // digits of a frame's number; 0: the default
   };
 
   Piece placeholder(std::string_view inside) const;

@@ -16,10 +16,10 @@ Pc2Writer::Pc2Writer(const std::filesystem::path& file, const FilmInfo& film)
 
 std::string Pc2Writer::header(Eigen::Index points, int samples) const {
   std::string bytes("POINTCACHE2\0", 12);
-  append_number<std::int32_t>(bytes, 1);  // the format's version
+  append_number<std::int32_t>(bytes, 1);  // version of the format
   append_number<std::int32_t>(bytes, static_cast<std::int32_t>(points));
-  append_number<float>(bytes, 0);  // the frame of the first sample
-  append_number<float>(bytes, 1);  // frames from a sample to the next
+  append_number<float>(bytes, 0);  // frame of the first sample
+  append_number<float>(bytes, 1);  // frames per sample
   append_number<std::int32_t>(bytes, samples);
   return bytes;
 }

@@ -8,9 +8,9 @@
 
 namespace drape {
 
-/// The motion as a Point Cache 2, which Blender's Mesh Cache modifier and others play on a mesh with the same vertices:
-/// NAME.obj beside it, the cloth of the first frame. Points in single precision [m, z up], a sample for every frame,
-/// the first at frame 0 of the cache.
+/// Writes the motion as a Point Cache 2, which Blender's Mesh Cache modifier and others play on a mesh with the same
+/// vertices: NAME.obj beside it, the cloth of the first frame. Points are in single precision [m, z up], with one
+/// sample per frame; the first is at frame 0 of the cache.
 class Pc2Writer final : public MotionWriter {
  public:
   Pc2Writer(const std::filesystem::path& file, const FilmInfo& film);

@@ -6,7 +6,7 @@
 
 namespace drape {
 
-/// The bytes of a PNG file. The same image gives the same bytes.
+/// Encodes an image as a PNG file. The same image gives the same bytes.
 /// @throws OutputError
 std::string encode_png(const Image& image);
 

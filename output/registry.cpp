@@ -51,7 +51,7 @@ const std::vector<OutputFormat>& output_formats() {
 
 namespace {
 
-/// Of a path, in small letters.
+/// Returns the extension of a path, in lower case.
 std::string extension_of(std::string_view path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) {

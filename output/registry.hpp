@@ -8,22 +8,22 @@
 
 namespace drape {
 
-/// Every format there is.
+/// Returns all formats.
 const std::vector<OutputFormat>& output_formats();
 
-/// The format of an output's path, by its extension in small or capital letters; null: there is none.
+/// Returns the format of a path by its extension in lower or upper case; null if there is none.
 const OutputFormat* find_format(std::string_view path);
 
-/// The same.
+/// Returns the format of a path.
 /// @throws UsageError that names the nearest extension and all valid ones
 const OutputFormat& format_of(std::string_view path);
 
 enum class FormatKinds { all, drawn, undrawn };
 
-/// What may stand after -o, a line for each format of these kinds.
+/// Returns the help for -o, one line per format of these kinds.
 std::string output_help(FormatKinds kinds);
 
-/// The table of docs/outputs.md.
+/// Returns the table of docs/outputs.md.
 std::string output_reference();
 
 }  // namespace drape

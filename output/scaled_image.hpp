@@ -4,7 +4,7 @@
 
 namespace drape {
 
-/// A picture made smaller: each pixel the mean of what it covers, in linear light.
+/// Shrinks a picture: each pixel is the mean of its area, in linear light.
 /// @param width, height at most the image's
 Image scaled_image(const Image& image, int width, int height);
 

@@ -13,10 +13,10 @@
 namespace drape {
 namespace {
 
-constexpr int narrowest = 16;      // of which somebody sees something [pixels]
-constexpr double least_rate = 10;  // at which a motion still flows [1/s]
+constexpr int narrowest = 16;      // least useful width [pixels]
+constexpr double least_rate = 10;  // least rate of a smooth motion [1/s]
 
-/// Where a file of `bytes` would lie between two that are known, if its size went as a power of its width.
+/// Estimates the width of a film of `bytes`, between two known ones, if size is a power of width.
 double interpolated_width(double small, double small_bytes, double wide, double wide_bytes, double bytes) {
   const double power = std::log(wide_bytes / small_bytes) / std::log(wide / small);
   return power > 0 ? small * std::pow(bytes / small_bytes, 1 / power) : (small + wide) / 2;
@@ -35,7 +35,7 @@ SizeLimitedEncoder::SizeLimitedEncoder(FilmMaker<Image> make, const std::filesys
       limit_(film.largest_file.value()),
       file_(file),
       spool_(file_) {
-  make_(file, film_);  // what is wrong with it is known now
+  make_(file, film_);  // reports errors now
 }
 
 void SizeLimitedEncoder::add(const Image& image) {

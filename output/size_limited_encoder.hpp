@@ -9,17 +9,24 @@
 
 namespace drape {
 
-/// A film of at most so many bytes: its pictures are kept until the last one is there, and then encoded at one size and
-/// rate after the other, to find what fits. It plays for as long, with every n-th of its pictures.
+/// A film of limited file size. It keeps all pictures until the last is added, then encodes them at several sizes and
+/// rates to find the largest film that fits. Its duration is unchanged: it plays every n-th picture.
 ///
+<<<<<<< HEAD:output/size_limited_encoder.hpp
 /// Its pictures become smaller first, down to half their width; then their rate, down to 10 in a second, at half the
 /// width or more; then their size again. Of what may not change the other alone does. The width that is found is one
 /// that fits where one that is a hundredth larger, or a pixel, does not; the rate is the first that does. They depend
 /// on nothing but the pictures.
 class SizeLimitedEncoder final : public Encoder {
+=======
+/// Pictures shrink first, down to half their width; then the rate falls, down to 10 per second, at half the width or
+/// more; then pictures shrink further. FilmKeeps excludes one of the two. The width is maximal to one percent, or one
+/// pixel; the rate is the first that fits. The result depends only on the pictures.
+class SizeLimitedEncoder final : public Encoder {
+>>>>>>> w4tmp:output/size_limited_encoder.hpp
  public:
-  /// @param make what makes the film's encoder, at any size
-  /// @param film with its largest size
+  /// @param make maker of the film's encoder at any size
+  /// @param film film with a limit for its file
   /// @throws Error as `make`
   SizeLimitedEncoder(FilmMaker<Image> make, const std::filesystem::path& file, const FilmInfo& film);
 
@@ -29,22 +36,22 @@ class SizeLimitedEncoder final : public Encoder {
   std::vector<OutputFile> finish(Ending ending) override;
 
  private:
-  /// A film of every so many-th picture, and what it takes.
+  /// A film of every `stride`-th picture, and its size.
   struct Trial {
     int width, stride;
     std::uint64_t bytes;
   };
   [[nodiscard]] int height_of(int width) const;
   [[nodiscard]] bool fits(const Trial& trial) const { return trial.bytes <= limit_.bytes; }
-  /// Encodes the film, and keeps it if it fits.
+  /// Encodes the film, and keeps the file if it fits.
   Trial encode(int width, int stride);
-  /// @returns what is kept
+  /// Finds the best film. @returns the kept trial
   Trial find_largest();
-  /// The first stride from a trial's on, up to `most`, with which its width fits, or the last one that was tried.
+  /// Finds the first stride from a trial's to `most` with which its width fits; otherwise returns the last trial.
   Trial find_stride(Trial trial, int most);
-  /// The largest width from `least` on that fits, or that one.
+  /// Finds the largest width from `least` on that fits; otherwise returns `least`.
   Trial find_width(int stride, int least);
-  /// "240x200 pixels instead of 480x400 and 10 frames per second instead of 20".
+  /// Returns "240x200 pixels instead of 480x400 and 10 frames per second instead of 20".
   [[nodiscard]] std::string changes(const Trial& kept) const;
   [[noreturn]] void fail(const Trial& smallest) const;
 
@@ -53,7 +60,7 @@ class SizeLimitedEncoder final : public Encoder {
   const FileLimit limit_;
   PartialFile file_;
   gif::FrameSpool spool_;
-  int width_ = 0, height_ = 0;  // of the pictures
+  int width_ = 0, height_ = 0;  // of the added pictures
 };
 
 }  // namespace drape

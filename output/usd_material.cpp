@@ -9,18 +9,18 @@
 namespace drape {
 namespace {
 
-/// An asset between signs that do not occur in it.
+/// Quotes an asset path with signs that do not occur in it.
 std::string asset(const std::filesystem::path& file) {
   const std::string name = file.generic_string();
   return name.find('@') == std::string::npos ? "@" + name + "@" : "@@@" + name + "@@@";
 }
 
-/// A file as seen from the folder of another one; absolute where there is no way.
+/// Returns a file's path relative to another file's folder; absolute if there is none.
 std::filesystem::path seen_from(const std::filesystem::path& other, const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::path way = std::filesystem::relative(file, std::filesystem::absolute(other).parent_path(), error);
   if (error || way.empty()) return std::filesystem::absolute(file);
-  // Without a dot in front a name is looked for in a resolver's search path.
+  // A resolver would look for a name without a leading dot in its search path.
   return *way.begin() == ".." ? way : "." / way;
 }
 

@@ -7,12 +7,12 @@
 
 namespace drape {
 
-/// "(r, g, b)" in linear light, as USD has colours.
+/// Returns "(r, g, b)" in linear light, USD's colour format.
 std::string usd_color(const Rgb& color);
 
-/// The cloth's Material, a UsdPreviewSurface: one that is all scattered light, of the look's colour or its texture.
-/// @param path  of the prim: "/Scene/ClothMaterial"; it is written one level deep
-/// @param file  that it is written to: the texture's path is as seen from there
+/// Returns the cloth's Material, a purely diffuse UsdPreviewSurface in the look's colour or texture.
+/// @param path  path of the prim: "/Scene/ClothMaterial"; indented for one level
+/// @param file  output file: the texture's path is relative to it
 std::string usd_material(const std::string& path, const Look& look, const std::filesystem::path& file);
 
 }  // namespace drape

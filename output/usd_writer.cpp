@@ -14,7 +14,7 @@
 namespace drape {
 namespace {
 
-/// The shortest that is read back as the same number in single precision.
+/// Formats a point with the shortest numbers that are read back as the same single-precision values.
 std::string point(const Eigen::RowVector3d& x) {
   const Eigen::RowVector3f p = x.cast<float>();
   require_single_precision(p);
@@ -27,12 +27,12 @@ std::string point_list(const Vertices& points) {
   return text + "]";
 }
 
-/// The lowest and the highest corner of the box around points.
+/// Returns the lowest and the highest corner of the points' bounding box.
 std::string box(const Vertices& points) {
   return fmt::format("[{}, {}]", point(points.colwise().minCoeff()), point(points.colwise().maxCoeff()));
 }
 
-/// A row-major matrix that turns z into the normal and then moves, as USD has it: for row vectors.
+/// Returns a row-major matrix that rotates z to the normal, then translates; for row vectors, as in USD.
 std::string placing(const Eigen::Quaterniond& turn, const Eigen::Vector3d& place) {
   const Eigen::Matrix3d r = turn.toRotationMatrix().transpose();
   std::string text = "(";
@@ -40,7 +40,7 @@ std::string placing(const Eigen::Quaterniond& turn, const Eigen::Vector3d& place
   return text + fmt::format("({}, {}, {}, 1))", place.x(), place.y(), place.z());
 }
 
-/// A list of numbers of anything that can be counted on.
+/// Formats a list of `count` items; Count is any integer type.
 template <class Count, class Text>
 std::string list(Count count, Text text_of) {
   std::string text = "[";
@@ -169,7 +169,8 @@ void UsdWriter::write_colliders() {
     const GroundShape& ground = grounds_[i];
     const Vertices corners = ground_corners(ground, patch_);
     Eigen::Vector3d middle = corners.colwise().mean().transpose();
-    middle += (ground.height - ground.normal.dot(middle)) * ground.normal;  // so that a level one is read back as it is
+    middle +=
+        (ground.height - ground.normal.dot(middle)) * ground.normal;  // lets a level ground be read back unchanged
     file_.write(fmt::format("\n    def Plane \"Ground{}\"\n    {{\n", i + 1));
     file_.write(fmt::format(
         "{0}uniform token axis = \"Z\"\n{0}double width = {1}\n{0}double length = {1}\n"

@@ -10,14 +10,14 @@
 
 namespace drape {
 
-/// An attribute's time samples, which wait on disk, since a USD file has one attribute after the other.
+/// Time samples of an attribute. They wait on disk, because a USD file stores one attribute after the other.
 class UsdSamples {
  public:
   UsdSamples(const PartialFile& output, const std::string& what) : text_(output, what) {}
 
   void add(int time_code, std::string value);
 
-  /// "point3f[] points = FIRST", and unless all values are one, "point3f[] points.timeSamples = { … }".
+  /// Writes "point3f[] points = FIRST", and if values differ, "point3f[] points.timeSamples = { … }".
   /// @param declaration "point3f[] points"
   void write(PartialFile& file, const std::string& indent, const std::string& declaration);
 
@@ -27,10 +27,10 @@ class UsdSamples {
   bool moves_ = false;
 };
 
-/// The motion as an ASCII USD file: in metres with z up; the cloth a Mesh whose points have a sample for every frame,
-/// with texture coordinates and a material; spheres, bodies as Meshes, and grounds as Planes. The time codes are the
-/// frames' numbers, of which timeCodesPerSecond pass in a second of the scene. Points in single precision, as USD has
-/// them. Memory does not grow with the motion.
+/// Writes the motion as an ASCII USD file, in metres with z up. The cloth is a Mesh with points for every frame,
+/// texture coordinates and a material; spheres follow, bodies as Meshes, and grounds as Planes. Time codes are frame
+/// numbers; timeCodesPerSecond of them pass in a second of the scene. Points have single precision. Memory does not
+/// grow with the motion.
 class UsdWriter final : public MotionWriter {
  public:
   UsdWriter(const std::filesystem::path& file, const FilmInfo& film);
@@ -42,7 +42,7 @@ class UsdWriter final : public MotionWriter {
   struct Ball {
     UsdSamples place, radius;
   };
-  /// A mesh with the samples of its points.
+  /// A mesh with time samples of its points.
   struct Body {
     std::shared_ptr<const std::vector<Triangle>> triangles;
     UsdSamples points;

@@ -15,12 +15,12 @@ namespace drape {
 namespace {
 
 double checked_rate(const std::filesystem::path& file, double fps) {
-  // The containers count time in thousandths of a second or finer.
+  // The containers count time in milliseconds or finer.
   if (fps >= 0.01 && fps <= 1000) return fps;
   throw UsageError(fmt::format("cannot write {} at {} frames per second: a video has 0.01 to 1000", shown(file), fps));
 }
 
-/// @param codecs in the order to try
+/// @param codecs in the order of trial
 OutputFormat video_format(const std::string& extension, const std::vector<VideoCodec>& codecs) {
   std::string help = "video, ";
   for (const VideoCodec& codec : codecs) help += (&codec == &codecs.front() ? "" : " or ") + codec.name;
@@ -101,7 +101,7 @@ std::vector<OutputFile> VideoEncoder::finish(Ending ending) {
 }
 
 OutputFormat mp4_format() { return video_format(".mp4", {{"avc1", "H.264"}, {"mp4v", "MPEG-4"}}); }
-// At the quality OpenCV asks for, VP9 takes four times as long as VP8 for files only a tenth smaller.
+// At OpenCV's quality, VP9 takes four times as long as VP8 for files only a tenth smaller.
 OutputFormat webm_format() { return video_format(".webm", {{"VP80", "VP8"}, {"VP90", "VP9"}}); }
 OutputFormat avi_format() { return video_format(".avi", {{"MJPG", "Motion JPEG"}, {"XVID", "MPEG-4"}}); }
 

@@ -9,23 +9,22 @@
 
 namespace drape {
 
-/// What a video is compressed with.
+/// Compression of a video.
 struct VideoCodec {
-  std::string fourcc;  ///< the four letters OpenCV knows it by
+  std::string fourcc;  ///< OpenCV's four-letter code
   std::string name;
 };
 
-/// A video, by OpenCV and its FFmpeg backend, with colours at half resolution (4:2:0), which is what browsers play. A
-/// picture of an odd width or height gets one more column or row, a copy of the last one, as 4:2:0 needs even ones.
+/// A video by OpenCV and its FFmpeg backend, with colours at half resolution (4:2:0), as browsers play it. 4:2:0 needs
+/// even sizes, so a picture of an odd width or height gets a copy of its last column or row.
 ///
-/// OpenCV does not report that a frame could not be written, so finish() decodes the whole video before it gets its
-/// name.
+/// OpenCV does not report a failed write, so finish() decodes the whole video before it gets its name.
 class VideoEncoder : public Encoder {
  public:
-  /// Makes a video of one picture to find out which codec there is, and takes such pictures at this rate: of few and
-  /// small ones VP8 makes a video of no bits.
-  /// @param codecs in the order to try
-  /// @throws OutputError if there is none
+  /// Finds a codec by making a video of one picture at this rate and size: from few small pictures VP8 makes an empty
+  /// video.
+  /// @param codecs in the order of trial
+  /// @throws OutputError if none works
   VideoEncoder(const std::filesystem::path& file, double fps, const std::vector<VideoCodec>& codecs, int width,
                int height);
 

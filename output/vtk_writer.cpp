@@ -15,7 +15,7 @@
 namespace drape {
 namespace {
 
-/// A DataArray whose numbers are in base64, behind the count of their bytes.
+/// Returns a DataArray whose numbers are in base64, after the count of their bytes.
 /// @param attributes "type=… Name=…"
 std::string data_array(const std::string& attributes, std::string_view bytes) {
   std::string block;
@@ -27,7 +27,7 @@ std::string doubles(const std::string& name, int components, std::string_view by
   return data_array(fmt::format(R"(type="Float64" Name="{}" NumberOfComponents="{}")", name, components), bytes);
 }
 
-/// The same, of any number of rows: for field data.
+/// Returns a DataArray with any number of rows, for field data.
 std::string field(const std::string& name, int components, const std::vector<double>& values) {
   const std::size_t tuples = values.size() / static_cast<std::size_t>(components);
   return data_array(
@@ -46,7 +46,7 @@ std::string points(const Vertices& x) {
   return "<Points>\n" + doubles("points", 3, vertex_bytes<double>(x)) + "</Points>\n";
 }
 
-/// A whole file.
+/// Returns a whole file.
 std::string poly_data(Eigen::Index point_count, std::size_t triangle_count, const std::string& fields,
                       const std::string& contents) {
   return fmt::format(
@@ -58,8 +58,7 @@ std::string poly_data(Eigen::Index point_count, std::size_t triangle_count, cons
       fields, point_count, triangle_count, contents);
 }
 
-/// The texture coordinates of the vertices, which is how VTK has them; nothing where there are none or a vertex has
-/// two.
+/// Returns texture coordinates per vertex, as VTK requires; empty if there are none or a vertex has two.
 std::string texture_coordinates(const FilmInfo& film, std::size_t vertex_count) {
   using Pair = std::array<float, 2>;
   constexpr float unknown = std::numeric_limits<float>::infinity();
@@ -97,7 +96,7 @@ std::string fields_of(const Frame& frame) {
   return text;
 }
 
-/// As the value of an attribute.
+/// Escapes a text for an attribute's value.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : printable(text)) {

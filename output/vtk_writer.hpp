@@ -9,14 +9,14 @@
 
 namespace drape {
 
-/// The cloth of a frame as PolyData in VTK's XML: points in double precision [m], of each its velocity [m/s] and how
-/// far it is stretched (VertexStretch), its texture coordinates unless it has several at a seam; time, energies,
-/// spheres and grounds as field data. Numbers are in base64, so the file is XML throughout.
-/// @param film whose cloth is read now
+/// Returns a function that writes a frame's cloth as PolyData in VTK's XML: points in double precision [m], with
+/// velocity [m/s] and stretch (VertexStretch); texture coordinates unless a seam gives a vertex several; time,
+/// energies, spheres and grounds as field data. Numbers are in base64, so the file is pure XML.
+/// @param film its cloth is read now
 std::function<std::string(const Frame&)> vtp_writer(const FilmInfo& film);
 
-/// A motion for ParaView: NAME.pvd says which files of the folder NAME make up which moment, FRAME.vtp with the cloth
-/// and, where there are any, colliders-FRAME.vtp with their surfaces, which is written only when they have moved.
+/// Writes a motion for ParaView: NAME.pvd lists the files of each moment in the folder NAME. FRAME.vtp has the cloth;
+/// colliders-FRAME.vtp, written only when they have moved, has the colliders' surfaces.
 class PvdWriter final : public MotionWriter {
  public:
   PvdWriter(const std::filesystem::path& file, const FilmInfo& film);
@@ -31,7 +31,7 @@ class PvdWriter final : public MotionWriter {
   PartialFile file_;
   std::function<std::string(const Frame&)> cloth_;
   GroundPatch patch_;
-  std::string colliders_, colliders_file_;  // the last that were written, and where to
+  std::string colliders_, colliders_file_;  // last written surfaces, and their file
   std::string lines_;                       // of the .pvd
   std::vector<OutputFile> written_;
 };

@@ -5,12 +5,12 @@
 namespace drape {
 namespace {
 
-constexpr std::uint16_t version = 45;    // the first with sizes of 64 bits
-constexpr std::uint16_t first_day = 33;  // 1 January 1980, the first that there is
-constexpr std::uint32_t in_extra = ~0U;  // a size, or an offset, that the extra field holds
+constexpr std::uint16_t version = 45;    // first with 64-bit sizes
+constexpr std::uint16_t first_day = 33;  // 1 January 1980, the earliest date
+constexpr std::uint32_t in_extra = ~0U;  // marks a size or offset stored in the extra field
 constexpr std::uint16_t in_record = 0xFFFF;
 
-/// What the local header of an entry and that of the directory have in common.
+/// Appends the part common to an entry's local header and its directory header.
 void append_entry(std::string& header, std::uint32_t crc32, std::size_t name, std::size_t extra) {
   append_number<std::uint16_t>(header, version);
   append_number<std::uint16_t>(header, 0);  // flags
@@ -24,7 +24,7 @@ void append_entry(std::string& header, std::uint32_t crc32, std::size_t name, st
   append_number<std::uint16_t>(header, static_cast<std::uint16_t>(extra));
 }
 
-/// The extra field of sizes of 64 bits.
+/// Returns the extra field with 64-bit sizes.
 std::string wide_field(std::initializer_list<std::uint64_t> numbers) {
   std::string field;
   append_number<std::uint16_t>(field, 1);
@@ -65,8 +65,8 @@ void ZipWriter::finish() {
   }
   const std::uint64_t end = written_;
 
-  std::string tail = "PK\x06\x06";         // the end of the directory, in 64 bits…
-  append_number<std::uint64_t>(tail, 44);  // the rest of it
+  std::string tail = "PK\x06\x06";         // end of the directory, 64-bit
+  append_number<std::uint64_t>(tail, 44);  // size of the rest
   append_number<std::uint16_t>(tail, version);
   append_number<std::uint16_t>(tail, version);
   append_number<std::uint32_t>(tail, 0);
@@ -75,11 +75,11 @@ void ZipWriter::finish() {
   append_number<std::uint64_t>(tail, entries_.size());
   append_number<std::uint64_t>(tail, end - start);
   append_number<std::uint64_t>(tail, start);
-  tail += "PK\x06\x07";  // … where that is…
+  tail += "PK\x06\x07";  // locator of that record
   append_number<std::uint32_t>(tail, 0);
   append_number<std::uint64_t>(tail, end);
   append_number<std::uint32_t>(tail, 1);
-  tail += "PK\x05\x06";  // … and the end in 16 bits, which says that it is there
+  tail += "PK\x05\x06";  // 16-bit end of the directory, whose values refer to the 64-bit one
   append_number<std::uint32_t>(tail, 0);
   append_number<std::uint16_t>(tail, in_record);
   append_number<std::uint16_t>(tail, in_record);

@@ -9,19 +9,18 @@
 
 namespace drape {
 
-/// Writes a zip archive from front to back, its entries as they are (not deflated), all with the sizes of 64 bits that
-/// large ones need (APPNOTE.TXT 6.3, 4.3.14 and 4.5.3), and without the time of day: the same entries give the same
-/// bytes.
+/// Writes a zip archive from front to back: entries stored without compression, with 64-bit sizes for large ones
+/// (APPNOTE.TXT 6.3, 4.3.14 and 4.5.3), and without time stamps, so that the same entries give the same bytes.
 class ZipWriter {
  public:
-  /// @param file empty
+  /// @param file must be empty
   explicit ZipWriter(PartialFile& file) : file_(file) {}
 
-  /// Begins an entry, whose bytes are to be written to the file next.
-  /// @param crc32 of those bytes
+  /// Begins an entry; write its bytes to the file next.
+  /// @param crc32 checksum of those bytes
   void begin(const std::string& name, std::uint64_t size, std::uint32_t crc32);
 
-  /// Writes the directory of the entries, behind the last.
+  /// Writes the directory after the last entry.
   void finish();
 
  private:
@@ -34,7 +33,7 @@ class ZipWriter {
 
   PartialFile& file_;
   std::vector<Entry> entries_;
-  std::uint64_t written_ = 0;  // the entries' own bytes included
+  std::uint64_t written_ = 0;  // includes the bytes of the entries
 };
 
 }  // namespace drape

@@ -9,7 +9,7 @@ namespace drape {
 
 namespace {
 
-/// The largest such number that is not above one above 0.
+/// Returns the largest 1, 2 or 5 times a power of ten up to a positive number.
 double round_down(double number) {
   const double power = std::pow(10.0, std::floor(std::log10(number) + 1e-9));
   for (const double factor : {5.0, 2.0}) {
@@ -33,7 +33,7 @@ std::vector<Tick> ticks(double from, double to, int about) {
   const double step = round_down((to - from) / about);
   std::vector<Tick> marks;
   for (double k = std::ceil(from / step - 1e-9); k * step <= to + 1e-9 * step; ++k) {
-    const double value = k == 0 ? 0 : k * step;  // not -0
+    const double value = k == 0 ? 0 : k * step;  // avoids -0
     marks.push_back({value, fmt::format("{:g}", value)});
   }
   return marks;

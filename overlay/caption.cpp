@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-constexpr double panel_part = 0.8;  // of what is behind a panel that it covers
+constexpr double panel_part = 0.8;  // opacity of a panel
 
 enum class Across { left, middle, right };
 

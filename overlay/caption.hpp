@@ -8,26 +8,25 @@
 
 namespace drape {
 
-/// The size of the text that suits a picture: readable, and no larger than it has to be [pixels].
+/// Returns the default text size for a picture: readable, and no larger than necessary [pixels].
 int text_size(int picture_height);
 
-/// The smallest text that can be read [pixels].
+/// Smallest readable text size [pixels].
 inline constexpr int least_text_size = 6;
 
-/// The largest text, of at most `most` pixels, with which a caption stands in a picture, with a margin around it.
-/// @returns 0 if it would have to be smaller than can be read
+/// Returns the largest text size up to `most` [pixels] with which a caption and its margin fit into a picture.
+/// @returns 0 if the caption would be too small to read
 int largest_caption_size(Pen& pen, const std::string& text, int most, int width, int height);
 
-/// Refuses a caption that does not stand in a picture of this size; one whose scene does not say its size is made
-/// smaller instead.
-/// @param text as it may be at some moment
-/// @throws UsageError with the largest size that does
+/// Refuses a caption of a given size that does not fit into the picture; a caption without a size shrinks instead.
+/// @param text longest text that may appear
+/// @throws UsageError with the largest size that fits
 void require_room(Pen& pen, const CaptionSettings& caption, const std::string& text, int width, int height);
 
-/// Writes a caption into a picture, in as many lines as it takes. One that has grown beyond the picture since the
-/// begin of the film is written smaller.
-/// @param text       what the caption says at this moment
-/// @param background of the picture behind it, for a caption that has no colour
+/// Writes a caption into a picture, in as many lines as needed. A caption that has outgrown the picture during the film
+/// is written smaller.
+/// @param text       text at this moment
+/// @param background colour behind it, which decides the colour of a caption without one
 void draw_caption(Image& picture, Pen& pen, const CaptionSettings& caption, const std::string& text,
                   const Rgb& background);
 

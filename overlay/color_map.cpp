@@ -9,7 +9,7 @@
 namespace drape {
 namespace {
 
-/// Every fifth of the 256 published colours, as bytes; those between are a straight line to within a byte.
+/// Every fifth of the 256 published colours, as bytes; linear interpolation is exact to one byte.
 constexpr std::array<std::array<std::uint8_t, 3>, 52> anchors{{
     {68, 1, 84},    {70, 8, 92},    {71, 16, 99},   {72, 23, 105},  {72, 29, 111},  {72, 36, 117},  {71, 42, 122},
     {70, 48, 126},  {69, 55, 129},  {67, 61, 132},  {65, 66, 135},  {63, 72, 137},  {61, 78, 138},  {58, 83, 139},

@@ -8,8 +8,8 @@
 namespace drape {
 namespace {
 
-constexpr double shown_part = 0.95;   // of a frame's vertices, within the limit
-constexpr double shown_frames = 0.9;  // of the frames of which that holds
+constexpr double shown_part = 0.95;   // fraction of a frame's vertices within the limit
+constexpr double shown_frames = 0.9;  // fraction of the frames with so many vertices
 
 }  // namespace
 
@@ -21,7 +21,7 @@ void ColorScale::survey(Eigen::VectorXd values) {
 }
 
 double ColorScale::limit() const {
-  constexpr double least = 1e-9;  // of a cloth that does nothing of the kind: all of it has the first colour
+  constexpr double least = 1e-9;  // floor for a cloth with zeros everywhere: all of it gets the first colour
   if (limit_) return *limit_;
   if (seen_.empty()) return round_up(least);
   std::vector<double> frames = seen_;

@@ -9,28 +9,28 @@
 
 namespace drape {
 
-/// The colours of viridis() for numbers from 0 up to a limit: one that is given, or else the smallest of 1, 2 and 5
-/// times a power of ten that 95 % of a frame's vertices stay below in nine frames of ten. So neither a few vertices in
-/// the sharpest fold nor a short blow leave all others in one colour.
+/// Maps numbers from 0 to a limit to the colours of viridis(). The default limit is the smallest 1, 2 or 5 times a
+/// power of ten that 95 % of the vertices stay below in nine of ten frames. So neither the few vertices of a sharp fold
+/// nor a short impact press all others into one colour.
 class ColorScale {
  public:
   explicit ColorScale(std::optional<double> limit) : limit_(limit) {}
 
-  /// Whether the numbers of the whole motion must be seen before the first are coloured.
+  /// Returns true if the whole motion must be surveyed before the first frame is coloured.
   [[nodiscard]] bool needs_motion() const { return !limit_; }
-  /// The numbers of the next frame.
+  /// Surveys the numbers of the next frame.
   void survey(Eigen::VectorXd values);
 
-  /// What the last colour stands for.
+  /// Returns the value of the last colour.
   [[nodiscard]] double limit() const;
   [[nodiscard]] std::vector<Rgb> colors(const Eigen::VectorXd& values) const;
-  /// The marks of a bar, at places from 0 to 1.
-  /// @param factor of the numbers that they show: 100 for percent
+  /// Returns the marks of a colour bar, at positions from 0 to 1.
+  /// @param factor factor of the labels' numbers: 100 for percent
   [[nodiscard]] std::vector<Tick> marks(double factor) const;
 
  private:
   std::optional<double> limit_;
-  std::vector<double> seen_;  // what 95 % of the vertices of each frame stay below
+  std::vector<double> seen_;  // 95 % quantile of each frame
 };
 
 }  // namespace drape

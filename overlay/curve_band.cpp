@@ -63,7 +63,7 @@ void CurveBand::draw_legend(Pen& pen, Image& band, int left) const {
 Image CurveBand::draw(Pen& pen, double time) const {
   Image band(width_, height(size_));
   Pen::fill(band, {0, 0, band.width, band.height}, band_paper);
-  int labels = 0;  // how wide those of the vertical axis are
+  int labels = 0;  // greatest width of the vertical axis' labels
   for (const Tick& mark : ticks(lowest_, highest_, 3)) labels = std::max(labels, pen.width(mark.label, size_));
   const int left = labels + size_, top = 2 * size_ + size_ / 4;
   const PictureBox area{left, top, std::max(1, width_ - left - size_), band.height - top - 2 * size_};

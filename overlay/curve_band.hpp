@@ -9,25 +9,25 @@
 
 namespace drape {
 
-/// A line of a diagram.
+/// A curve of a diagram.
 struct Curve {
   std::string name;
   Rgb color;
   std::vector<double> values;  ///< at the diagram's times
 };
 
-/// A diagram that goes along under a film: its axes are those of the whole, its curves end where the film is.
+/// A diagram below a film: its axes span the whole film, its curves end at the current time.
 class CurveBand {
  public:
-  /// How high it is [pixels].
-  /// @param size of the font [pixels]
+  /// Returns its height [pixels].
+  /// @param size font size [pixels]
   static int height(int size) { return 9 * size; }
 
-  /// @param unit   of the values, as in "J"
-  /// @param times  of the curves' values, ascending; at least one [s]
+  /// @param unit   unit of the values, as in "J"
+  /// @param times  times of the curves' values, ascending; at least one [s]
   CurveBand(int width, int size, std::string unit, std::vector<double> times, std::vector<Curve> curves);
 
-  /// The diagram when the film is at a time [s].
+  /// Draws the diagram at a time of the film [s].
   [[nodiscard]] Image draw(Pen& pen, double time) const;
 
  private:
@@ -38,7 +38,7 @@ class CurveBand {
   std::string unit_;
   std::vector<double> times_;
   std::vector<Curve> curves_;
-  double lowest_ = 0, highest_ = 0;  // of the axis
+  double lowest_ = 0, highest_ = 0;  // range of the vertical axis
 };
 
 }  // namespace drape

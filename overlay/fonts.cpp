@@ -43,7 +43,7 @@ std::u32string characters(std::string_view utf8) {
   return result;
 }
 
-/// What is called of both libraries.
+/// The functions used of both libraries.
 struct Fonts::Functions {
   decltype(&FT_Init_FreeType) init_freetype = nullptr;
   decltype(&FT_Done_FreeType) done_freetype = nullptr;
@@ -96,14 +96,14 @@ struct Fonts::Implementation {
   FcConfig* config = nullptr;
   FcFontSet* sorted = nullptr;
   FT_Library library = nullptr;
-  std::map<int, FT_Face> faces;  // of the fonts that were used, by their places in `sorted`
+  std::map<int, FT_Face> faces;  // of the used fonts, by their index in `sorted`
   std::map<std::pair<char32_t, int>, Glyph> glyphs;
 
   Implementation() = default;
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
   ~Implementation() {
-    if (library != nullptr) call.done_freetype(library);  // and its faces
+    if (library != nullptr) call.done_freetype(library);  // frees its faces as well
     if (sorted != nullptr) call.destroy_set(sorted);
     if (config != nullptr) call.destroy_config(config);
   }
@@ -115,7 +115,7 @@ struct Fonts::Implementation {
       call.add_string(wanted, key, reinterpret_cast<const FcChar8*>(value));
     };
     add(FC_FAMILY, "sans-serif");
-    add(FC_LANG, "en");  // not the user's: the same fonts wherever the same are installed
+    add(FC_LANG, "en");  // not the user's language: equal fonts on equal installations
     call.substitute(config, wanted, FcMatchPattern);
     call.default_substitute(wanted);
     FcResult result{};
@@ -124,7 +124,7 @@ struct Fonts::Implementation {
     if (call.init_freetype(&library) != 0) throw OutputError("cannot draw: FreeType does not start");
   }
 
-  /// The font's place in `sorted`; -1: no font has the character.
+  /// Returns the index in `sorted` of the first font with the character; -1: none.
   [[nodiscard]] int font_of(char32_t character) const {
     for (int i = 0; sorted != nullptr && i < sorted->nfont; ++i) {
       FcPattern* const font = sorted->fonts[i];
@@ -158,7 +158,7 @@ struct Fonts::Implementation {
   Glyph draw(char32_t character, int size) {
     FT_Face const from = face(std::max(0, font_of(character)));
     Glyph glyph;
-    // Light hinting moves letters up and down only, so that their widths are those of the font.
+    // Light hinting moves letters only vertically, so widths stay those of the font.
     if (call.set_pixel_sizes(from, 0, static_cast<FT_UInt>(size)) != 0 ||
         call.load_char(from, character, FT_LOAD_RENDER | FT_LOAD_TARGET_LIGHT) != 0) {
       throw OutputError(

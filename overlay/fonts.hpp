@@ -8,39 +8,38 @@
 
 namespace drape {
 
-/// The picture of a letter.
+/// The picture of a character.
 struct Glyph {
   int left = 0, top = 0;               ///< from the pen to the left column, and from the base line up to the top row
   int width = 0, height = 0;           ///< [pixels]
-  double advance = 0;                  ///< to the next letter [pixels]
-  std::vector<std::uint8_t> coverage;  ///< width·height, rows from top to bottom, 255 is all of a pixel
+  double advance = 0;                  ///< to the next character [pixels]
+  std::vector<std::uint8_t> coverage;  ///< width·height, rows from top to bottom, 255: fully covered
 };
 
-/// The Unicode characters of a text in UTF-8; U+FFFD stands for each byte that is none.
+/// Decodes a text in UTF-8 to Unicode characters; U+FFFD replaces each invalid byte.
 std::u32string characters(std::string_view utf8);
 
-/// The fonts of this machine, in the order in which fontconfig prefers them for text without serifs: each character
-/// comes from the first that has it. FreeType and fontconfig are loaded when the first one is made. Use it from one
-/// thread at a time.
+/// The fonts of this machine, in fontconfig's order for sans-serif text; each character comes from the first font that
+/// has it. FreeType and fontconfig are loaded when the first object is made. Use it from one thread at a time.
 class Fonts {
  public:
-  /// The Debian packages that bring both libraries, and letters for every language.
+  /// Returns the Debian packages of both libraries, and of fonts for every language.
   static const char* packages();
 
-  /// @throws OutputError if a library is not there, or no font is, with what to install
+  /// @throws OutputError with the packages to install, if a library or all fonts are missing
   Fonts();
   ~Fonts();
   Fonts(const Fonts&) = delete;
   Fonts& operator=(const Fonts&) = delete;
 
-  /// Of a character in the first font that has it, or else the box that stands for what is missing.
-  /// @param size of the font [pixels]
+  /// Returns a character's picture in the first font that has it, or the font's box for missing characters.
+  /// @param size font size [pixels]
   const Glyph& glyph(char32_t character, int size);
 
-  /// @throws OutputError naming the characters of the text that no font has, with what to install
+  /// Requires a font for each character. @throws OutputError with the missing characters and the packages to install
   void require(std::string_view utf8);
 
-  /// The name and the file of the font that a character comes from: "DejaVu Sans (/usr/…/DejaVuSans.ttf)"; empty: none.
+  /// Returns name and file of a character's font: "DejaVu Sans (/usr/…/DejaVuSans.ttf)"; empty: none.
   std::string source(char32_t character);
 
  private:

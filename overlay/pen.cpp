@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-/// The light of each sRGB byte.
+/// Returns the linear light of each sRGB byte.
 const std::array<float, 256>& light_of_bytes() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> light{};
@@ -22,13 +22,13 @@ const std::array<float, 256>& light_of_bytes() {
   return table;
 }
 
-/// Where a pixel is in a row after row of such a width.
+/// Returns the index of a pixel in rows of the given width.
 std::size_t place(int x, int y, int width) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
 }
 
-/// Lays a colour over a pixel.
-/// @param part of the pixel that it covers
+/// Blends a colour over a pixel.
+/// @param part covered fraction of the pixel
 void blend(Image& image, int x, int y, const Eigen::Vector3f& light, float part) {
   if (x < 0 || y < 0 || x >= image.width || y >= image.height || part <= 0) return;
   std::uint8_t* const pixel = image.at(x, y);
@@ -38,14 +38,14 @@ void blend(Image& image, int x, int y, const Eigen::Vector3f& light, float part)
   }
 }
 
-/// Replaces each f(q) by the least (p − q)² + f(p): the lower envelope of parabolas (P. Felzenszwalb and D.
-/// Huttenlocher 2012, Distance Transforms of Sampled Functions, algorithm 1).
+/// Squared distance transform: replaces each f(q) by the least (p − q)² + f(p), the lower envelope of parabolas (P.
+/// Felzenszwalb and D. Huttenlocher 2012, Distance Transforms of Sampled Functions, algorithm 1).
 class SquaredDistances {
  public:
   explicit SquaredDistances(int longest)
       : values_(static_cast<std::size_t>(longest)), centres_(values_.size()), begins_(values_.size() + 1) {}
 
-  /// @param stride from one of the count numbers to the next
+  /// @param stride distance between the `count` numbers
   void along(double* f, std::size_t count, std::size_t stride) {
     for (std::size_t q = 0; q < count; ++q) values_[q] = f[q * stride];
     std::size_t last = 0;
@@ -65,22 +65,21 @@ class SquaredDistances {
     }
   }
 
-  static constexpr double far = 1e12;  // beyond every square of a distance in a picture
+  static constexpr double far = 1e12;  // exceeds every squared distance in a picture
 
  private:
-  /// Where the parabola around q, which lies further along, goes below the one around p.
+  /// Returns the position where the parabola around q > p falls below the one around p.
   [[nodiscard]] double meet(std::size_t q, std::size_t p) const {
     const auto at_q = static_cast<double>(q), at_p = static_cast<double>(p);
     return (values_[q] - values_[p] + at_q * at_q - at_p * at_p) / (2 * (at_q - at_p));
   }
 
   std::vector<double> values_;
-  std::vector<std::size_t> centres_;  // of the parabolas of the envelope
-  std::vector<double> begins_;        // of their parts of it
+  std::vector<std::size_t> centres_;  // of the envelope's parabolas
+  std::vector<double> begins_;        // start of each parabola's part
 };
 
-/// How far each pixel is from those that letters cover; one that they cover partly is as far from them as the part that
-/// they leave.
+/// Returns each pixel's distance from the letters; a partly covered pixel is as far away as its uncovered fraction.
 std::vector<double> distances_from(const std::vector<float>& coverage, int width, int height) {
   std::vector<double> distances(coverage.size());
   for (std::size_t i = 0; i < coverage.size(); ++i) {
@@ -164,7 +163,7 @@ Pen::Mask Pen::mask(const std::string& line, int size, int rim) {
   return mask;
 }
 
-/// Every pixel gets what is left at its distance from the letters: all of it beside them, less towards the radius.
+// Coverage falls with the distance from the letters: full beside them, zero at the radius.
 Pen::Mask Pen::widened(const Mask& letters, int radius) {
   Mask wide{letters.box, std::vector<float>(letters.coverage.size(), 0)};
   const double reach = radius + 1;

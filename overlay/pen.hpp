@@ -16,18 +16,18 @@ struct PictureBox {
   [[nodiscard]] int bottom() const { return top + height; }
 };
 
-/// What is behind the letters of a text.
+/// Background of a text's letters.
 enum class Backing {
   none,
-  halo,  ///< a soft rim of the colour that contrasts with theirs
-  panel  ///< a rectangle of it
+  halo,  ///< a soft rim in the colour that contrasts with the letters
+  panel  ///< a rectangle in that colour
 };
 
-/// Black or white, whichever a colour is read on better: that of the larger contrast ratio (WCAG 2.1).
+/// Returns black or white: the one with the larger contrast ratio to a colour (WCAG 2.1).
 Rgb contrasting(const Rgb& color);
 
-/// Draws text, lines and rectangles into pictures. What covers part of a pixel is mixed with what is there in linear
-/// light, as a camera would see it; what lies outside a picture is left out. Use it from one thread at a time.
+/// Draws text, lines and rectangles into pictures. Partly covered pixels are mixed in linear light, as a camera would
+/// see them; parts outside a picture are clipped. Use it from one thread at a time.
 class Pen {
  public:
   /// @throws OutputError as Fonts
@@ -35,31 +35,30 @@ class Pen {
 
   [[nodiscard]] Fonts& fonts() { return fonts_; }
 
-  /// How wide a line of text is [pixels].
+  /// Returns the width of a line of text [pixels].
   int width(const std::string& line, int size);
 
-  /// Of a line of text, with what separates it from the next [pixels].
+  /// Returns the height of a line of text, with the gap to the next [pixels].
   static int line_height(int size) { return size + (size + 3) / 4; }
 
-  /// Breaks a text into lines no wider than `width`, at spaces where there are any and else between letters, and where
-  /// it has line feeds.
+  /// Breaks a text into lines no wider than `width` [pixels]: at line feeds, at spaces, and otherwise between letters.
   std::vector<std::string> wrap(const std::string& text, int size, int width);
 
   /// Writes a line.
-  /// @param left, base where the first letter stands [pixels]
-  /// @param size       of the font [pixels]
+  /// @param left, base pen position of the first letter [pixels]
+  /// @param size       font size [pixels]
   void write(Image& image, int left, int base, const std::string& line, int size, const Rgb& color,
              Backing backing = Backing::none);
 
-  /// A line of round ends.
-  /// @param width of the line [pixels]
+  /// Draws a line with round ends.
+  /// @param width width of the line [pixels]
   static void line(Image& image, double x0, double y0, double x1, double y1, double width, const Rgb& color);
 
-  /// @param part of the colour that covers what is there, 0 to 1
+  /// Fills a rectangle. @param part opacity, 0 to 1
   static void fill(Image& image, const PictureBox& box, const Rgb& color, double part = 1);
 
  private:
-  /// How much of each pixel letters cover.
+  /// Fraction of each pixel that letters cover.
   struct Mask {
     PictureBox box;
     std::vector<float> coverage;

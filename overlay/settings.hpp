@@ -9,20 +9,20 @@
 
 namespace drape {
 
-/// Where in a picture something stands. The order is that of the names in a scene.
+/// Position in a picture. In the order of the names in a scene.
 enum class CaptionPlace { top_left, top, top_right, bottom_left, bottom, bottom_right };
 
 /// A text on every picture of a film.
 struct CaptionSettings {
-  std::string text;     ///< as the scene has it
-  TextTemplate filled;  ///< the same, where what does not change with time is filled in already
+  std::string text;     ///< text from the scene
+  TextTemplate filled;  ///< template with all constant fields filled in
   CaptionPlace place = CaptionPlace::top_left;
-  std::optional<int> size;   ///< of the font [pixels]; absent: what suits the picture, see text_size()
-  std::optional<Rgb> color;  ///< absent: black or white, whichever is read better on the background
+  std::optional<int> size;   ///< font size [pixels]; absent: text_size() of the picture
+  std::optional<Rgb> color;  ///< absent: black or white, whichever contrasts more with the background
   Backing backing = Backing::halo;
 };
 
-/// What stands in bands below the picture.
+/// Content of the bands below the picture.
 struct OverlaySettings {
   bool energies = false;
 };

@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::string_view digits = "0123456789";
 
-/// Whether a format is one of {fmt}, without names and numbers of arguments, and of no unreasonable width.
+/// Returns true for a format of {fmt} without names and numbers of arguments, and with widths of at most two digits.
 bool well_formed(std::string_view format) {
   const auto take = [&](std::string_view any) {
     if (format.empty() || any.find(format.front()) == std::string_view::npos) return false;
     format.remove_prefix(1);
     return true;
   };
-  const auto number = [&] { return !take(digits) || !take(digits) || !take(digits); };  // of two digits at most
+  const auto number = [&] { return !take(digits) || !take(digits) || !take(digits); };  // at most two digits
   if (format.size() > 1 && std::string_view("<>^").find(format[1]) != std::string_view::npos) format.remove_prefix(1);
   take("<>^");
   take("+- ");
@@ -37,7 +37,7 @@ struct FormatField {
   const std::string& format;
 
   std::string operator()(std::int64_t number) const {
-    // A whole number may be asked for with a fraction.
+    // Whole numbers accept formats with decimals.
     if (!format.empty() && std::string_view("eEfFgG").find(format.back()) != std::string_view::npos) {
       return format_number(static_cast<double>(number), format);
     }
@@ -58,7 +58,7 @@ std::string format_field(const FieldValue& value, const std::string& format) {
   try {
     if (well_formed(format)) return std::visit(FormatField{format}, value);
   } catch (const fmt::format_error&) {
-    // said below
+    // reported below
   }
   throw std::invalid_argument(
       fmt::format("unknown format '{}'; {}", format,

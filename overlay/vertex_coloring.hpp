@@ -14,18 +14,18 @@
 
 namespace drape {
 
-/// What the colours of a cloth's vertices can show.
+/// A quantity of a cloth's vertices that colours can show.
 class VertexMeasure {
  public:
   VertexMeasure(ColorBy what, const Cloth& cloth);
 
-  /// Whether the frames must have velocities.
+  /// Returns true if the frames must have velocities.
   [[nodiscard]] bool needs_velocities() const { return what_ == ColorBy::speed; }
-  /// Of each vertex: by how much it is stretched (0: not at all), its speed [m/s], its curvature [1/m].
+  /// Returns each vertex's relative stretch (0: none), speed [m/s] or curvature [1/m].
   [[nodiscard]] Eigen::VectorXd operator()(const Frame& frame) const;
-  /// With the unit: "speed [m/s]".
+  /// Returns the name with its unit: "speed [m/s]".
   [[nodiscard]] std::string title() const;
-  /// Of a number in that unit to one of those above.
+  /// Returns the factor from values to numbers in that unit.
   [[nodiscard]] double factor() const { return what_ == ColorBy::stretch ? 100 : 1; }
 
  private:
@@ -34,7 +34,7 @@ class VertexMeasure {
   VertexCurvature curvature_;
 };
 
-/// The colours of a cloth's vertices that show something about them.
+/// Colours of a cloth's vertices for one quantity.
 class VertexColoring {
  public:
   VertexColoring(ColorBy what, std::optional<double> limit, const Cloth& cloth)
@@ -43,10 +43,10 @@ class VertexColoring {
   [[nodiscard]] const VertexMeasure& measure() const { return measure_; }
   [[nodiscard]] const ColorScale& scale() const { return scale_; }
 
-  /// The next frame of the whole motion, see ColorScale.
+  /// Surveys the next frame of the whole motion, see ColorScale.
   void survey(const Frame& frame) { scale_.survey(measure_(frame)); }
   [[nodiscard]] std::vector<Rgb> colors(const Frame& frame) const { return scale_.colors(measure_(frame)); }
-  /// The bar's marks.
+  /// Returns the marks of the colour bar.
   [[nodiscard]] std::vector<Tick> marks() const { return scale_.marks(measure_.factor()); }
 
  private:

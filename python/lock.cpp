@@ -11,11 +11,11 @@ namespace {
 
 using std::chrono_literals::operator""ms;
 
-std::atomic<bool> ending = false;   // Python is
-std::atomic<int> without_lock = 0;  // threads that compute
-std::atomic<int> taking_lock = 0;   // threads that have not seen the end, and wait for the lock
+std::atomic<bool> ending = false;   // true while Python ends
+std::atomic<int> without_lock = 0;  // threads that compute without the lock
+std::atomic<int> taking_lock = 0;   // threads that wait for the lock and have not seen the end
 
-/// Says that this thread is going to wait for the lock, as long as it lives.
+/// Marks this thread as waiting for the lock, during its lifetime.
 class TakingLock {
  public:
   TakingLock() { ++taking_lock; }
@@ -28,12 +28,12 @@ void wait_for_exit() {
   while (true) std::this_thread::sleep_for(1000ms);
 }
 
-/// Called with the lock, before Python ends.
+/// Runs with the lock, before Python ends.
 void end() {
   constexpr auto patience = 2000ms;
   ending = true;
   const py::gil_scoped_release free;
-  while (taking_lock > 0) std::this_thread::sleep_for(1ms);  // they get it now
+  while (taking_lock > 0) std::this_thread::sleep_for(1ms);  // they get the lock now
   const auto begin = std::chrono::steady_clock::now();
   while (without_lock > 0 && std::chrono::steady_clock::now() - begin < patience) std::this_thread::sleep_for(1ms);
 }

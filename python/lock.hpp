@@ -4,9 +4,9 @@
 
 namespace drape::python {
 
-/// Does without Python's lock, as pybind11::gil_scoped_release, also in a thread that outlives Python: when the
-/// interpreter ends, a thread that wants its lock back would be ended in the middle of C++, which aborts the process.
-/// Here it waits until the process is over.
+/// Releases Python's lock during its lifetime, as pybind11::gil_scoped_release, also in a thread that outlives Python.
+/// An ending interpreter kills threads that retake the lock in the middle of C++, which aborts the process. Such a
+/// thread waits here until the process is over.
 class WithoutLock {
  public:
   WithoutLock();
@@ -18,11 +18,11 @@ class WithoutLock {
   PyThreadState* thread_;
 };
 
-/// Calls work() with Python's lock, on a thread that does without it.
-/// @returns what it returns; true, without a call, where Python ends
+/// Calls work() with Python's lock, on a thread that has released it.
+/// @returns its result; true, without a call, if Python ends
 bool with_lock(bool (*work)());
 
-/// Has the end of Python wait until all that compute have seen it, for two seconds at most.
+/// Makes the end of Python wait for all computing threads, for two seconds at most.
 void watch_end();
 
 }  // namespace drape::python

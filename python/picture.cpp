@@ -14,7 +14,7 @@ namespace {
 
 Eigen::Vector3d vector_of(const std::array<double, 3>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 
-/// The scene's camera with what is wished for. One without a position sees the moment, not the whole motion.
+/// Returns the view of the scene's camera with the wishes. Without a position it frames only this moment.
 View view_of(Camera camera, const PictureWishes& wishes, const Frame& frame, double aspect) {
   if (wishes.position) camera.position = vector_of(*wishes.position);
   if (wishes.target) camera.target = vector_of(*wishes.target);
@@ -29,7 +29,7 @@ View view_of(Camera camera, const PictureWishes& wishes, const Frame& frame, dou
   return framing.view();
 }
 
-/// How the vertices are coloured; nothing where no colours are wished for.
+/// Returns the colouring of the vertices, if one is requested.
 std::optional<VertexColoring> coloring_of(const PictureWishes& wishes, const Cloth& cloth) {
   if (!wishes.color_by) {
     if (wishes.color_limit) throw UsageError("color_limit: it has no effect without color_by");
@@ -71,7 +71,7 @@ py::array render(SceneSimulation& simulation, const PictureWishes& wishes) {
     return Frame{
         .time = s.time(), .positions = s.state().x, .colliders = s.colliders(s.time()), .velocities = s.state().v};
   });
-  constexpr double furthest = 1e90;  // as of a scene's meshes [m]
+  constexpr double furthest = 1e90;  // limit of a scene's meshes [m]
   if (!frame.positions.allFinite() || frame.positions.cwiseAbs().maxCoeff() > furthest) {
     throw DivergedError(
         "the cloth cannot be drawn: vertices are farther away than 1e90 m; restore() a state before that");

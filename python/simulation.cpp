@@ -18,7 +18,7 @@ namespace {
 
 using Numbers = py::array_t<double, py::array::forcecast>;
 
-/// A copy of vertices that Python owns.
+/// Returns a copy of vertices that Python owns.
 py::array copied(const Vertices& vertices) { return Mirror(vertices).array(); }
 
 template <class T, std::size_t Columns>
@@ -54,7 +54,7 @@ State make_state(const Numbers& positions, const Numbers& velocities, std::int64
 
 std::unique_ptr<SceneSimulation> make_simulation(const py::object& scene, const py::dict& set,
                                                  const std::filesystem::path& folder, int threads) {
-  constexpr int most_threads = 256;  // as on the command line
+  constexpr int most_threads = 256;  // same limit as on the command line
   if (threads < 1 || threads > most_threads) {
     throw UsageError(fmt::format("threads: expected a whole number from 1 to {}, found {}", most_threads, threads));
   }
@@ -111,7 +111,7 @@ void SceneSimulation::show() {
 }
 
 bool SceneSimulation::signalled() {
-  constexpr auto patience = std::chrono::milliseconds(50);  // of whoever presses Ctrl-C
+  constexpr auto patience = std::chrono::milliseconds(50);  // delay before Ctrl-C takes effect
   const auto now = std::chrono::steady_clock::now();
   if (now - looked_ < patience) return false;
   looked_ = now;

@@ -17,12 +17,12 @@
 
 namespace drape::python {
 
-/// An array n×3 that Python sees and cannot write, with numbers of its own: it lives as long as anybody looks at it,
-/// and shows what was last put into it. Schemes exchange their vectors, so a look at a simulation's own would dangle.
+/// A read-only n×3 array for Python with its own memory: it lives while Python refers to it, and shows the last values
+/// stored in it. A view of the simulation's own vectors would dangle, because schemes exchange them.
 class Mirror {
  public:
   explicit Mirror(const Vertices& now) : numbers_(std::make_shared<Vertices>(now)) {}
-  /// Puts other numbers into it, as many.
+  /// Stores other values of the same number.
   void show(const Vertices& now) { *numbers_ = now; }
   [[nodiscard]] pybind11::array array() const;
 
@@ -30,8 +30,8 @@ class Mirror {
   std::shared_ptr<Vertices> numbers_;
 };
 
-/// An object that Python can have without having made it, by __new__ alone: pybind11 only allocates it then. So its
-/// memory begins with zeros, and it knows.
+/// Base of objects that Python can create by __new__ alone, which only allocates: the memory starts with zeros, so a
+/// missing __init__ is detected.
 class Made {
  public:
   /// @throws pybind11::type_error
@@ -51,20 +51,19 @@ class Made {
   bool made_ = true;
 };
 
-/// What Python sees as drape.State.
+/// The Python class drape.State.
 struct State : Made, Simulation::Checkpoint {
   State() = default;
   explicit State(Simulation::Checkpoint checkpoint) : Simulation::Checkpoint(std::move(checkpoint)) {}
 };
 
-/// What Python sees as drape.Simulation: a scene in motion. Any thread may call it; while one computes, without
-/// Python's lock, others wait.
+/// The Python class drape.Simulation: a scene in motion. Any thread may call it; while one computes, without Python's
+/// lock, others wait.
 class SceneSimulation : public Made {
  public:
   explicit SceneSimulation(Scene scene);
 
-  /// Takes steps, and looks from time to time whether Python has a signal to handle: that ends it with the last whole
-  /// step.
+  /// Takes steps and regularly checks Python for signals; a signal ends it after the last whole step.
   StepReport step(std::int64_t count);
   void restore(const State& checkpoint);
 
@@ -85,32 +84,33 @@ class SceneSimulation : public Made {
   [[nodiscard]] pybind11::array velocities() const { return require_made(), velocities_.array(); }
 
  private:
-  /// Waits without Python's lock: who computes may need it to go on.
+  /// Waits for the mutex without Python's lock, which the computing thread may need.
   std::unique_lock<std::mutex> wait();
   void show();
-  /// Whether Python has handled a signal with an exception, which is then set; looked at every 50 ms.
+  /// Returns true if Python has handled a signal with an exception, which is then set; checks every 50 ms.
   bool signalled();
 
   std::mutex mutex_;
   Scene scene_;
-  std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();  // for a signal
+  std::chrono::steady_clock::time_point looked_ =
+      std::chrono::steady_clock::now();  // time of the last check for signals
   Simulation simulation_;
   Mirror positions_, velocities_;
 };
 
-/// Where the picture is taken from, in place of what the scene's [camera] and [video] say.
+/// Overrides of the scene's [camera] and [video].
 struct PictureWishes {
   std::optional<std::array<int, 2>> size;                   ///< [pixels]
   std::optional<std::array<double, 3>> position, target;    ///< [m]
   std::optional<double> azimuth, elevation, field_of_view;  ///< [degrees]
   std::optional<std::string> color_by;                      ///< stretch, speed or curvature
-  std::optional<double> color_limit;                        ///< of the last colour, in the unit of color_by
+  std::optional<double> color_limit;                        ///< value of the last colour, in the unit of color_by
 };
 
-/// Draws the cloth as it is now: height×width×3 bytes.
+/// Draws the current cloth: height×width×3 bytes.
 pybind11::array render(SceneSimulation& simulation, const PictureWishes& wishes);
 
-/// Adds the class Simulation, and what it returns, to the module.
+/// Adds the class Simulation and the classes of its results to the module.
 void add_simulation(pybind11::module_& module);
 
 }  // namespace drape::python

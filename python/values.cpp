@@ -48,7 +48,7 @@ TomlValue to_toml(const py::handle& value, const std::string& name, int depth) {
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
     return to_array(value.cast<py::iterable>(), name, depth);
   }
-  if (py::hasattr(value, "tolist")) return to_toml(value.attr("tolist")(), name, depth + 1);  // numpy's
+  if (py::hasattr(value, "tolist")) return to_toml(value.attr("tolist")(), name, depth + 1);  // numpy values
   if (py::hasattr(value, "__fspath__")) return to_toml(value.attr("__fspath__")(), name, depth + 1);
   throw py::type_error(fmt::format("{}: expected a number, a string, a list or a dictionary, found {}",
                                    name.empty() ? "scene" : name, std::string(py::repr(value))));

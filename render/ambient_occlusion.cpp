@@ -7,13 +7,13 @@
 namespace drape {
 namespace {
 
-/// Texels that no side of a map exceeds.
+/// Largest side of a map [texels].
 constexpr int largest_view = 256;
-/// In texels: how far above its vertex a side is looked at, so that a fold does not end before it has begun; what above
-/// that is its own neighbourhood; and how much further away something takes all of the light.
+/// Lengths in texels: offset of the sampled point above its vertex, which keeps the ends of folds; depth differences
+/// that count as the point's own neighbourhood; and the further difference at which all light is blocked.
 constexpr double lifted = 1;
 constexpr float nearby = 0.05F, fading = 0.4F;
-/// From below this cosine light arrives too flat to be judged by a map.
+/// Least cosine of incidence: a map cannot judge flatter light.
 constexpr float flattest = 0.12F;
 
 /// V. I. Lebedev, "Quadratures on a sphere", Zh. vychisl. Mat. mat. Fiz. 16 (1976): weights of the points (1,0,0) and
@@ -26,7 +26,7 @@ AmbientOcclusion::AmbientOcclusion() {
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {
       for (int z = 0; z <= 1; ++z) {
-        if (z == 0 && (y < 0 || (y == 0 && x <= 0))) continue;  // the other end of one that is there
+        if (z == 0 && (y < 0 || (y == 0 && x <= 0))) continue;  // opposite end of an existing axis
         const int sides = std::abs(x) + std::abs(y) + z;
         const Eigen::Vector3d direction = Eigen::Vector3d(x, y, z).normalized();
         if (sides == 2) continue;
@@ -57,8 +57,7 @@ const std::vector<AmbientOcclusion::Sides>& AmbientOcclusion::compute(const Vert
   return reached_;
 }
 
-// Each vertex gets the mean over its triangles of their corners' mean: what a map's texels are too wide for is evened
-// out.
+// Gives each vertex the mean over its triangles of their corners' mean. This evens out details smaller than a texel.
 void AmbientOcclusion::smooth(const std::vector<Triangle>& triangles) {
   struct Sum {
     Sides light{};

@@ -5,14 +5,14 @@
 
 namespace drape {
 
-/// Where the OpenGL context comes from. Both draw the same bytes where Mesa's software renderer is behind them.
+/// Source of the OpenGL context. Both draw the same bytes on top of Mesa's software renderer.
 enum class GlBackend {
-  automatic,  ///< the first of the following that is there
+  automatic,  ///< the first available of the following
   osmesa,     ///< OSMesa: Mesa up to 25.0
   egl         ///< EGL without a surface
 };
 
-/// "auto", "osmesa" or "egl".
+/// Returns "auto", "osmesa" or "egl".
 const char* backend_name(GlBackend backend);
 
 }  // namespace drape

@@ -19,7 +19,7 @@ Eigen::Matrix3d turn(const Camera& camera, const Eigen::Vector3d& about, int fra
   return Eigen::AngleAxisd(camera.orbit * part * std::numbers::pi / 180, unit_vector(about)).toRotationMatrix();
 }
 
-/// A view that goes round its target, or stays if it does not.
+/// Returns a path whose camera circles its target, or stays if `orbit` is 0.
 CameraPath turning(const View& view, const Camera& camera, int count) {
   if (camera.orbit == 0) return view;
   std::vector<View> views(static_cast<std::size_t>(count), view);
@@ -32,7 +32,7 @@ CameraPath turning(const View& view, const Camera& camera, int count) {
   return CameraPath(std::move(views));
 }
 
-/// Calls visit(point, radius) for all that has to be in view in a frame.
+/// Calls visit(point, radius) for everything that must be in view in a frame.
 template <class Visit>
 void for_each_ball(const Frame& frame, const Visit& visit) {
   for (Eigen::Index i = 0; i < frame.positions.rows(); ++i) visit(Eigen::Vector3d(frame.positions.row(i)), 0.0);
@@ -41,7 +41,7 @@ void for_each_ball(const Frame& frame, const Visit& visit) {
   }
 }
 
-/// The middle of a frame's things, as seen along the axes (rows).
+/// Returns the centre of a frame's bounding box, along the given axes (rows).
 Eigen::Vector3d middle(const Frame& frame, const Eigen::Matrix3d& axes) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(endless), high = -low;
   for_each_ball(frame, [&](const Eigen::Vector3d& center, double radius) {
@@ -52,13 +52,13 @@ Eigen::Vector3d middle(const Frame& frame, const Eigen::Matrix3d& axes) {
   return axes.transpose() * (low + high) / 2;
 }
 
-/// How far from a target a camera in the direction of the axes has to be at least, for all of a frame to be in view.
+/// Returns the least distance from the target at which a camera in the axes' direction sees the whole frame.
 double distance(const Frame& frame, const Eigen::Vector3d& target, const Eigen::Matrix3d& axes, const Camera& camera,
                 double aspect) {
   const double free = (1 - 2 * camera.margin) * std::tan(camera.field_of_view * std::numbers::pi / 360);
-  const Eigen::Array2d slopes(free * aspect, free);  // of the planes at the sides, and above and below
+  const Eigen::Array2d slopes(free * aspect, free);  // of the left and right planes, and of the top and bottom planes
   const Eigen::Array2d aside = (1 + slopes.square()).sqrt() / slopes;
-  double least = 1e-3;  // a single point is not looked at from where it is
+  double least = 1e-3;  // keeps the camera away from a motion that is a single point
   for_each_ball(frame, [&](const Eigen::Vector3d& center, double radius) {
     const Eigen::Vector3d p = axes * (center - target);
     const Eigen::Array2d across = p.head<2>().array().abs() / slopes + aside * radius;
@@ -67,13 +67,13 @@ double distance(const Frame& frame, const Eigen::Vector3d& target, const Eigen::
   return least;
 }
 
-/// The entry of a list of frames, which goes on for ever at both ends as it begins and ends.
+/// Returns entry k of a list whose first and last entries continue beyond its ends.
 template <class T>
 const T& entry(const std::vector<T>& list, int k) {
   return list[static_cast<std::size_t>(std::clamp(k, 0, static_cast<int>(list.size()) - 1))];
 }
 
-/// The largest within so many frames of each.
+/// Returns for each frame the largest value within `reach` frames.
 std::vector<double> largest_around(const std::vector<double>& values, int reach) {
   std::vector<double> largest = values;
   for (int k = 0; k < static_cast<int>(values.size()); ++k) {
@@ -85,7 +85,7 @@ std::vector<double> largest_around(const std::vector<double>& values, int reach)
   return largest;
 }
 
-/// The average of the frames around each, with weights that fall off evenly. What does not change keeps its bits.
+/// Returns for each frame the average within `reach` frames, with linearly falling weights. Constants keep their bits.
 template <class T>
 std::vector<T> smooth(const std::vector<T>& values, int reach) {
   std::vector<T> smoothed = values;
@@ -99,7 +99,7 @@ std::vector<T> smooth(const std::vector<T>& values, int reach) {
   return smoothed;
 }
 
-/// A camera without a position that turns or follows.
+/// Returns the path of a camera without a position that orbits or follows.
 CameraPath moving(const Camera& camera, const KnownFilm& film) {
   const View begin = distant_view(camera);
   std::vector<View> views(static_cast<std::size_t>(film.count), begin);

@@ -13,11 +13,11 @@
 namespace drape {
 namespace {
 
-/// Bayer's order of 4×4 thresholds.
+/// Bayer's 4×4 matrix of dither thresholds.
 constexpr std::array<std::array<double, 4>, 4> thresholds{
     {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}}};
 
-constexpr std::uint32_t full = 65535;  // the 16 bits of light 1, and of coverage 1
+constexpr std::uint32_t full = 65535;  // 16-bit value of light 1, and of coverage 1
 
 void check_complete(const GlFunctions& gl) {
   const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
@@ -36,7 +36,7 @@ Eigen::Vector2i checked_size(const GlFunctions& gl, Eigen::Vector2i size) {
   return size;
 }
 
-/// The sRGB byte of each 16-bit linear value.
+/// Returns the sRGB byte of each 16-bit linear value.
 const std::vector<std::uint8_t>& encoding() {
   static const std::vector<std::uint8_t> table = [] {
     std::vector<std::uint8_t> bytes(full + 1);
@@ -78,12 +78,12 @@ Canvas::Canvas(const GlFunctions& gl, Eigen::Vector2i size, const Look& look)
   const std::array<double, 3> upper{top.r, top.g, top.b};
   for (int y = 0; y < size.y(); ++y) {
     Row& row = background_.emplace_back();
-    const double height = 1 - (size.y() - 1 - y + 0.5) / size.y();  // of its middle, from 0 to 1
+    const double height = 1 - (size.y() - 1 - y + 0.5) / size.y();  // of the row's middle, 0 to 1
     for (std::size_t c = 0; c < 3; ++c) {
       const double value = std::clamp(std::lerp(lower[c], upper[c], height), 0.0, 1.0);
       row.light[c] = static_cast<std::uint32_t>(std::lround(full * srgb_to_linear(value)));
     }
-    // A gradient of whole bytes has bands. One colour has none, and stays exact.
+    // A gradient without dithering has visible bands. A uniform colour needs none and stays exact.
     const auto& offsets = thresholds[static_cast<std::size_t>(y % 4)];
     for (int x = 0; x < size.x(); ++x) {
       const double offset = (offsets[static_cast<std::size_t>(x % 4)] + 0.5) / 16 - 0.5;

@@ -13,27 +13,27 @@
 
 namespace drape {
 
-/// What is drawn on: 16 bits of linear light per channel, premultiplied with coverage. The samples of a pixel are
-/// averaged as light adds up, and only then laid over the background and encoded as sRGB. The last two are done here
-/// and not by OpenGL: Mesa's sRGB framebuffers differ between processors, a table does not, and it is faster than a
-/// shader on one.
+/// Drawing target: 16 bits of linear light per channel, premultiplied with coverage. The samples of a pixel are
+/// averaged in linear light, then composed over the background and encoded as sRGB. The last two steps run here, not in
+/// OpenGL: Mesa's sRGB framebuffers differ between processors, while a table is exact and faster than a shader on a
+/// processor.
 class Canvas {
  public:
-  /// @param size in pixels
+  /// @param size picture size [pixels]
   /// @throws OutputError if the picture is too large for OpenGL
   Canvas(const GlFunctions& gl, Eigen::Vector2i size, const Look& look);
 
-  /// Directs drawing to the canvas, emptied.
-  /// @param box what will be drawn on: nothing outside it changes, and all of it is background
+  /// Clears the canvas and directs drawing to it.
+  /// @param box pixels that will be drawn; everything outside is background
   void begin(const PixelBox& box);
 
-  /// The picture: what was drawn since begin(), over the background. Where nothing was drawn the background's bytes are
-  /// exact.
+  /// Returns the picture: everything drawn since begin(), over the background. Untouched pixels have the background's
+  /// exact bytes.
   /// @throws OutputError if OpenGL reports an error
   Image finish();
 
  private:
-  /// A colour buffer, and with `depth` a depth buffer, of the same size and number of samples.
+  /// A colour buffer and, with `depth`, a depth buffer of the same size and number of samples.
   struct Target {
     Renderbuffer color;
     std::optional<Renderbuffer> depth;
@@ -46,17 +46,17 @@ class Canvas {
     std::array<std::uint32_t, 3> light{};  // 16 bits, linear
   };
 
-  /// Lays what was drawn in the box over the background.
+  /// Composes the content of the box over the background.
   void compose(Image& image) const;
 
   const GlFunctions& gl_;
   Eigen::Vector2i size_;
-  std::vector<Row> background_;  // of each row of the picture, from below
-  Image empty_;                  // nothing but background
+  std::vector<Row> background_;  // rows from below
+  Image empty_;                  // the background alone
   PixelBox box_;
   Target samples_;
   std::optional<Target> resolved_;   // absent with one sample per pixel
-  std::vector<std::uint16_t> rgba_;  // of the box, rows from below
+  std::vector<std::uint16_t> rgba_;  // pixels of the box, rows from below
 };
 
 }  // namespace drape

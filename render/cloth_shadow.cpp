@@ -10,16 +10,16 @@
 namespace drape {
 namespace {
 
-/// Texels for each row of the picture, and how many across it at least and at most: edges are a few pixels wide.
+/// Texels per row of the picture, and least and most texels across it: edges are a few pixels wide.
 constexpr double texels_per_row = 0.75, least_resolution = 300, most_resolution = 600;
-/// Texels that no side of the map exceeds, where the camera sees only a part of the cloth.
+/// Largest side of the map [texels], if the camera sees only a part of the cloth.
 constexpr int largest_map = 1536;
-/// Texels in light that falls straight on a surface: how far above its plane something has to be to take light, and how
-/// much farther to take all of it.
+/// Depths in texels under perpendicular light: least height above a surface at which an object blocks light, and the
+/// further height over which the shadow becomes full.
 constexpr double lift = 0.8, softness = 1.6;
-/// Texels around a point that its shadow may be of.
+/// Radius around a point within which the filter reads the map [texels].
 constexpr int filtered = 4;
-/// Texels along each side of the blocks that are looked at first.
+/// Side of the blocks that are tested first [texels].
 constexpr int block = 8;
 static_assert(DepthMap::block % block == 0);
 
@@ -93,9 +93,9 @@ ClothShadow::Light ClothShadow::light_on(const Triangle& triangle) const {
   return light == Light::whole && is_behind_a_sphere(triangle) ? Light::past_spheres : light;
 }
 
-// Whether there are two layers anywhere, of which one is above the triangle's plane, in the rectangle around it and
-// what the filter takes in; and whether there is one far above it everywhere. What is above the plane and the only
-// layer is the surface itself, which curves.
+// Searches the triangle's bounding rectangle plus the filter's radius. It is lit fully unless two layers overlap there
+// and one lies above the triangle's plane; it is dark if one lies far above everywhere. A single layer above the plane
+// is the curved surface itself.
 ClothShadow::Light ClothShadow::past_cloth(const Triangle& triangle) const {
   const auto corner = [&](std::size_t c) { return map_.places().row(triangle[c]).transpose().eval(); };
   const Eigen::Vector3d a = corner(0), b = corner(1), c = corner(2);
@@ -149,12 +149,12 @@ void ClothShadow::set_uniforms(const Program& program) const {
     program.set(name, std::span(&single, 1));
   };
   const bool empty = map_.columns() == 0;
-  const Eigen::Vector4d middle(0, 0, 0, -0.5);  // of a texel is a whole number for the shader
+  const Eigen::Vector4d middle(0, 0, 0, -0.5);  // moves middles of texels to whole numbers for the shader
   set("shadow_u", empty ? Eigen::Vector4d::Zero().eval() : (map_.u() + middle).eval());
   set("shadow_v", empty ? Eigen::Vector4d::Zero().eval() : (map_.v() + middle).eval());
   set("shadow_depth", empty ? Eigen::Vector4d::Zero().eval() : map_.depth());
   program.set("shadow_lift", static_cast<float>(lift * map_.texel()));
-  // What is behind all of the cloth is as dark as half a block behind it, in front of what an empty texel holds.
+  // Points behind the whole cloth count as half a block behind it, in front of the value of empty texels.
   program.set("shadow_lowest", static_cast<float>(-0.5 * DepthMap::block * map_.texel()));
   set("shadow_texel",
       empty ? Eigen::Vector4d(0, 0, 0, 1)

@@ -12,17 +12,17 @@
 
 namespace drape {
 
-/// What cloth and bodies take of the key light: the map of it that the light sees, for the shaders that include
-/// shadow.glsl. Spheres are not in it, as a shader knows their shadows exactly.
+/// Shadow map of cloth and bodies in the key light, for shaders that include shadow.glsl. Spheres are left out, because
+/// the shaders compute their shadows exactly.
 class ClothShadow {
  public:
   static constexpr GLint texture_unit = 1;
 
-  /// Which part of the key light reaches a triangle: all of it, what spheres leave, what cloth, bodies and spheres
-  /// leave, or none.
+  /// Part of the key light that reaches a triangle: all of it; all but that blocked by spheres; all but that blocked by
+  /// cloth, bodies and spheres; or none.
   enum class Light { whole, past_spheres, past_cloth, none };
 
-  /// @param rows of the picture [pixels]
+  /// @param rows height of the picture [pixels]
   ClothShadow(const GlFunctions& gl, int rows);
 
   /// Draws the map of a frame.
@@ -30,14 +30,14 @@ class ClothShadow {
 
   [[nodiscard]] const DepthMap& map() const { return map_; }
 
-  /// Classifies a triangle of the cloth. Most have no shadow of cloth, body or sphere on them.
+  /// Classifies a triangle of the cloth. Most receive no shadow of cloth, body or sphere.
   [[nodiscard]] Light light_on(const Triangle& triangle) const;
 
-  /// Hands the map to a program that is in use.
+  /// Passes the map to a program that is in use.
   void set_uniforms(const Program& program) const;
 
  private:
-  /// Columns and rows of the map, the last included.
+  /// Range of columns and rows of the map, both ends included.
   struct Texels {
     int left, right, bottom, top;
   };
@@ -48,12 +48,12 @@ class ClothShadow {
   [[nodiscard]] bool is_behind_a_sphere(const Triangle& triangle) const;
 
   const GlFunctions& gl_;
-  double resolution_;  // texels across what the picture shows
+  double resolution_;  // texels across the visible part of the scene
   DepthMap map_;
   Texture texture_;
-  Eigen::Vector2i size_{0, 0};            // of the texture
-  std::vector<Eigen::Vector4d> spheres_;  // place in the map, and radius [m]
-  std::vector<unsigned char> layered_;    // of each block: whether one thing is behind another there
+  Eigen::Vector2i size_{0, 0};            // size of the texture
+  std::vector<Eigen::Vector4d> spheres_;  // position in the map, and radius [m]
+  std::vector<unsigned char> layered_;    // per block: true if one surface lies behind another
 };
 
 }  // namespace drape

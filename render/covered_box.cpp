@@ -6,7 +6,7 @@
 namespace drape {
 namespace {
 
-/// Grows around points of a shot as they appear in the picture.
+/// Bounding box of points of a shot, in the picture.
 class Outline {
  public:
   explicit Outline(const Shot& shot) : to_clip_(shot.view_projection.cast<double>()) {}
@@ -14,7 +14,7 @@ class Outline {
   /// @param points n×3 [m]
   void add(const Vertices& points) {
     const Eigen::MatrixX4d clip = (points * to_clip_.leftCols<3>().transpose()).rowwise() + to_clip_.col(3).transpose();
-    // Beside the camera a point has no place in the picture; and what is not a number is not positive either.
+    // A point beside or behind the camera has no position in the picture. NaN fails this comparison as well.
     if (!(clip.col(3).array() > 0).all()) {
       unbounded_ = true;
       return;
@@ -27,7 +27,7 @@ class Outline {
     }
   }
 
-  /// The pixels within it, with a border of so many.
+  /// Returns the pixels within the outline, enlarged by `border` on each side.
   [[nodiscard]] PixelBox box(Eigen::Vector2i picture, int border) const {
     if (unbounded_) return {.size = picture};
     PixelBox box;
@@ -49,7 +49,7 @@ class Outline {
   bool unbounded_ = false;
 };
 
-/// The corners of the cube around a sphere.
+/// Returns the corners of the cube around a sphere.
 Vertices cube(const Eigen::Vector4f& sphere) {
   Vertices corners(8, 3);
   for (int corner = 0; corner < 8; ++corner) {
@@ -60,7 +60,7 @@ Vertices cube(const Eigen::Vector4f& sphere) {
   return corners;
 }
 
-/// OpenGL places vertices in single precision, and to a 256th of a pixel.
+/// Pixels added on each side: OpenGL rounds vertices to single precision and to 1/256 pixel.
 constexpr int border = 1;
 
 }  // namespace

@@ -9,15 +9,15 @@
 namespace drape {
 namespace {
 
-/// The first texel whose middle is not before x, where texel k has its middle at k + ½.
+/// Returns the first texel whose middle is at or after x; texel k has its middle at k + ½.
 int first_texel(double x) { return static_cast<int>(std::ceil(x - 0.5)); }
 
-/// An edge from p up to q. Both its triangles find the same crossings, bit by bit.
+/// An edge from p up to q. Both of its triangles compute bitwise equal crossings.
 class RisingEdge {
  public:
   RisingEdge(const double* p, const double* q) : x_(p[0]), y_(p[1]), slope_((q[0] - p[0]) / (q[1] - p[1])) {}
 
-  /// Where it crosses the middle of a row.
+  /// Returns the position where the edge crosses the middle of a row.
   [[nodiscard]] double at(double middle) const { return x_ + (middle - y_) * slope_; }
 
  private:
@@ -43,7 +43,7 @@ void DepthMap::draw(const Vertices& positions, const std::vector<Triangle>& tria
   for (const Triangle& triangle : triangles) fill(triangle);
 }
 
-// Numbers that are too large or too small for the map leave it empty: there is nothing to be seen in such a picture.
+// Numbers too large or too small for the map leave it empty: nothing would be visible in such a picture.
 bool DepthMap::place(double texel, int largest) {
   if (projected_.rows() == 0 || !projected_.allFinite() || !std::isnormal(texel) || texel < 0) return false;
   const Eigen::RowVector3d low = projected_.colwise().minCoeff(), high = projected_.colwise().maxCoeff();
@@ -109,7 +109,7 @@ void DepthMap::fill(const Triangle& triangle) {
 }
 
 float interpolated(const DepthMap& map, const std::vector<float>& values, double column, double row) {
-  // In this order what is not a number becomes 0.
+  // In this order min and max turn NaN into 0.
   const double x = std::min(std::max(0.0, column - 0.5), map.columns() - 1.001);
   const double y = std::min(std::max(0.0, row - 0.5), map.rows() - 1.001);
   const int left = static_cast<int>(x), bottom = static_cast<int>(y);

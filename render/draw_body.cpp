@@ -21,7 +21,7 @@ Eigen::Vector3d face_normal(const Vertices& x, const Triangle& t) {
   return (x.row(t[1]) - a).cross(x.row(t[2]) - a).transpose().stableNormalized();
 }
 
-/// Sets that grow together, of numbers from 0 on.
+/// Disjoint sets of the numbers 0, 1, … (union-find).
 class Groups {
  public:
   explicit Groups(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0); }
@@ -46,9 +46,9 @@ std::vector<std::string> body_defines(const Look& look, std::size_t sphere_count
 CreasedMesh::CreasedMesh(const std::vector<Triangle>& mesh, const Vertices& positions) : triangles(mesh.size()) {
   std::vector<Eigen::Vector3d> normals;
   for (const Triangle& t : mesh) normals.push_back(face_normal(positions, t));
-  // Corners, 3·t + c, are joined across smooth edges.
+  // Joins corners, numbered 3·t + c, across smooth edges.
   Groups corners(3 * mesh.size());
-  std::map<Edge, std::array<std::size_t, 2>> edges;  // with a triangle and the corner that it begins at
+  std::map<Edge, std::array<std::size_t, 2>> edges;  // with a triangle and its corner where the edge begins
   const double flattest = std::cos(crease * std::numbers::pi / 180);
   for (std::size_t t = 0; t < mesh.size(); ++t) {
     for (std::size_t c = 0; c < 3; ++c) {

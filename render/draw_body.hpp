@@ -12,24 +12,24 @@
 
 namespace drape {
 
-/// The vertices of a mesh as they are drawn: one for each smooth part of the surface around it, as triangles that meet
-/// at a crease have normals of their own.
+/// Drawn vertices of a mesh: one for each smooth part of the surface around a vertex, because triangles that meet at a
+/// crease need separate normals.
 struct CreasedMesh {
-  std::vector<int> sources;         ///< of each drawn vertex, which of the mesh it is
+  std::vector<int> sources;         ///< mesh vertex of each drawn vertex
   std::vector<Triangle> triangles;  ///< of drawn vertices, in the order of the mesh
 
-  /// Parts at all edges where the normals of two triangles are more than this apart, in the given place.
+  /// Splits at edges where two triangles' normals differ by more than this angle, at the given positions.
   static constexpr double crease = 35;  ///< [degrees]
   CreasedMesh(const std::vector<Triangle>& mesh, const Vertices& positions);
 };
 
-/// Draws bodies: dull, smooth where their meshes are smooth, and with two sides.
+/// Draws bodies: matt, two-sided, and smooth where their meshes are smooth.
 class DrawBody {
  public:
-  /// @param sphere_count,ground_count in every frame, as of spheres; what is below the grounds is not drawn
+  /// @param sphere_count,ground_count numbers in every frame; parts below a ground are not drawn
   DrawBody(GlDevice& device, const Look& look, std::size_t sphere_count, std::size_t ground_count);
 
-  /// @param shadow of the frame, where the look has shadows
+  /// @param shadow shadow map of the frame, if the look has shadows
   void draw(const Shot& shot, const ClothShadow* shadow);
 
  private:
@@ -45,8 +45,8 @@ class DrawBody {
   const GlFunctions& gl_;
   const Program& program_;
   Eigen::Vector3f color_;                      // linear light
-  std::vector<std::unique_ptr<Drawn>> drawn_;  // by the bodies' order; made when a frame first has them
-  std::vector<float> floats_;                  // of each drawn vertex: position and normal
+  std::vector<std::unique_ptr<Drawn>> drawn_;  // in the order of the bodies; made at the first frame with bodies
+  std::vector<float> floats_;                  // position and normal of each drawn vertex
 };
 
 }  // namespace drape

@@ -21,10 +21,10 @@ namespace {
 constexpr GLuint position_attribute = 0, normal_attribute = 1, uv_attribute = 2, barycentric_attribute = 3,
                  line_scale_attribute = 4, color_attribute = 5, occlusion_attribute = 6;
 
-/// Texels of the maps of ambient occlusion across what the picture shows.
+/// Texels of the ambient occlusion maps across the visible part of the scene.
 constexpr double occlusion_resolution = 100;
 
-/// Of each triangle, for the edges opposite to its corners: whether only one triangle has that edge.
+/// Returns for each triangle, by the edge opposite each corner, whether it is the edge's only triangle.
 std::vector<std::array<bool, 3>> boundary_edges(const std::vector<Triangle>& triangles) {
   std::map<Edge, int> uses;
   for (const Triangle& t : triangles) {
@@ -128,7 +128,7 @@ void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
   upload_corners(corners);
 }
 
-// A hem has the texture of the border that it is at. Its corners are in the order of its vertices.
+// The hem takes the texture of the border beside it. Its corners are in the order of its vertices.
 void DrawCloth::add_hem(std::vector<Corner>& corners) {
   const auto first = static_cast<unsigned>(corners.size());
   for (std::size_t k = 0; k < hem_.corners().size(); ++k) {
@@ -176,7 +176,7 @@ void DrawCloth::upload_shape() {
   gl_.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(dynamic_.size() * sizeof(float)), dynamic_.data());
 }
 
-// The light from all around changes slowly: it is computed at the cloth's own vertices.
+// Ambient light varies slowly in space, so it is computed at the cloth's own vertices only.
 void DrawCloth::upload_occlusion(const Shot& shot) {
   const Vertices& positions = shot.frame.positions;
   occluders_.take(positions, shot.frame);
@@ -251,7 +251,7 @@ void DrawCloth::set_uniforms(const Program& program) const {
   program.set("line_width", static_cast<float>(look_.line_width));
 }
 
-// Reading the shadow map takes llvmpipe several times as long as all else in a pixel.
+// Sorts triangles by light: reading the shadow map takes llvmpipe several times as long as all else in a pixel.
 void DrawCloth::upload_indices(const ClothShadow& shadow) {
   std::array<std::vector<unsigned>, 4> groups;
   groups[0].reserve(indices_.size());

@@ -18,34 +18,34 @@
 
 namespace drape {
 
-/// Draws the cloth: its smooth surface with a hem, lit on both sides, in its texture or its colour, with or without
-/// mesh lines.
+/// Draws the cloth: its smooth surface with a hem, lit on both sides, textured or in one colour, with optional mesh
+/// lines.
 class DrawCloth {
  public:
-  /// Parameters and exceptions are Renderer's.
+  /// Takes the parameters of Renderer and throws its exceptions.
   DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, const std::vector<Triangle>& triangles,
             const std::vector<std::array<float, 2>>& uvs);
 
-  /// Computes the shape of a frame, which is drawn next.
+  /// Computes the surface of the next frame to draw.
   void shape(const Frame& frame);
   /// Triangles of the surface, without the hem.
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return surface_.triangles(); }
   /// Positions of the vertices of surface and hem.
   [[nodiscard]] const Vertices& positions() const { return positions_; }
 
-  /// @param shadow of the frame, where the look has shadows
-  /// @param colors of the cloth's vertices, in place of texture and colour; or none
+  /// @param shadow shadow map of the frame, if the look has shadows
+  /// @param colors colours of the cloth's vertices, which replace texture and colour; empty: none
   void draw(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors = {});
 
  private:
-  /// What of a GL vertex stays the same in all frames.
+  /// Attributes of a GL vertex that are the same in all frames.
   struct Corner {
     std::array<float, 2> uv{};
-    std::array<float, 3> barycentric{};  // of the mesh lines
-    std::array<float, 3> line_scale{};   // 1 for an edge of two triangles, which draw one half of the line each, else 2
+    std::array<float, 3> barycentric{};  // for the mesh lines
+    std::array<float, 3> line_scale{};   // 1 for an edge of two triangles, each of which draws half of the line; else 2
   };
 
-  /// The place of a GL vertex: its vertex of the surface, and where that is in a triangle of the cloth.
+  /// Origin of a GL vertex: its vertex of the surface, and its position in a triangle of the cloth.
   struct Source {
     int vertex;
     Triangle corners;
@@ -71,18 +71,18 @@ class DrawCloth {
   SmoothSurface surface_;
   Hem hem_;
   Vertices positions_, normals_;
-  Occluders occluders_;          // of the sky
-  std::vector<Source> sources_;  // of each GL vertex
-  std::vector<float> dynamic_;   // of each GL vertex: position and normal
+  Occluders occluders_;          // of ambient light
+  std::vector<Source> sources_;  // per GL vertex
+  std::vector<float> dynamic_;   // position and normal of each GL vertex
   VertexArray array_;
   Buffer static_buffer_, dynamic_buffer_, index_buffer_;
   std::optional<Buffer> color_buffer_;  // made when vertices first have colours
   std::optional<Buffer> occlusion_buffer_;
-  std::optional<AmbientOcclusion> occlusion_;  // with its buffer: absent where the look has none
+  std::optional<AmbientOcclusion> occlusion_;  // and its buffer: absent if the look has none
   std::optional<Texture> texture_;
-  std::vector<unsigned> indices_;             // of the corners of all triangles
-  std::array<std::size_t, 4> counts_{};       // triangles in each light, as they follow each other in the index buffer
-  std::array<const Program*, 4> programs_{};  // likewise; without shadows only the first is there
+  std::vector<unsigned> indices_;             // corners of all triangles
+  std::array<std::size_t, 4> counts_{};       // triangles per kind of light, in the order of the index buffer
+  std::array<const Program*, 4> programs_{};  // per kind of light; without shadows only the first is set
   std::size_t sphere_count_ = 0;
   bool colored_ = false;
 };

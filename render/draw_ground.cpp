@@ -13,15 +13,15 @@
 namespace drape {
 namespace {
 
-/// How far the ground is seen, in distances from the camera to where it looks.
+/// Radius to which the ground is visible, in distances from the camera to its focus on the ground.
 constexpr double reach = 2.6;
-/// What the cloth may sink below the surface that is drawn without being hidden by it, in layers of contact: a fast
-/// cloth does so for a moment.
+/// Depth below the drawn surface at which the ground starts to hide the cloth, in contact layers: a fast cloth
+/// penetrates it for a moment.
 constexpr double hidden_below = 3;
-/// The height of the cloth from which on its shadow is soft, in heights of the picture.
+/// Height of the cloth from which its shadow is soft, in heights of the picture.
 constexpr double softening = 0.1;
 
-/// Where on the ground the camera looks, and how far from there the ground is seen [m].
+/// Returns the camera's focus on the ground, and the radius around it to which the ground is visible [m].
 Eigen::Vector4d focus_of(const Shot& shot, const GroundShape& ground) {
   const Eigen::Vector3d eye = shot.eye.cast<double>(), forward = -shot.back.cast<double>();
   const double above = ground.normal.dot(eye) - ground.height, descent = -ground.normal.dot(forward);
@@ -36,8 +36,8 @@ void set(const Program& program, const char* name, const Eigen::Vector4d& value)
   program.set(name, std::span(&single, 1));
 }
 
-/// Where on a ground shadows may lie, as past_spheres() in shadow.glsl and the picture of the cloth's have them:
-/// corners of quadrilaterals.
+/// Returns corners of quadrilaterals that hold all shadows on a ground: those of spheres, with the size of
+/// past_spheres() in shadow.glsl, and that of the cloth's picture.
 Vertices shadow_corners(const Shot& shot, const GroundShape& ground, const GroundShadow& shadow) {
   const Eigen::Vector3d light = shot.key_direction.cast<double>().normalized();
   const double rise = ground.normal.dot(light);
@@ -57,7 +57,7 @@ Vertices shadow_corners(const Shot& shot, const GroundShape& ground, const Groun
   return points;
 }
 
-/// The picture in pieces: the box, and what is left, which may be empty, below, above and on both sides of it.
+/// Returns the parts of the picture below, above, left and right of a box; some may be empty.
 std::array<PixelBox, 4> around(const PixelBox& box, Eigen::Vector2i picture) {
   const Eigen::Vector2i from = box.corner, to = box.corner + box.size;
   return {PixelBox{{0, 0}, {picture.x(), from.y()}}, PixelBox{{0, to.y()}, {picture.x(), picture.y() - to.y()}},
@@ -81,7 +81,7 @@ DrawGround::DrawGround(GlDevice& device, const Look& look, std::size_t sphere_co
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-// In every pixel of the ground a shadow costs as much as the rest: only what may be in it is drawn with one.
+// A shadow doubles the cost of a ground's pixel, so only pixels that it may touch use the shader with shadows.
 void DrawGround::draw(const Shot& shot, const ClothShadow* shadow, Eigen::Vector2i picture) {
   gl_.BindVertexArray(array_.id());
   for (const GroundShape& ground : shot.grounds) {

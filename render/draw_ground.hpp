@@ -10,15 +10,15 @@
 
 namespace drape {
 
-/// Draws the grounds: planes without an end that fade into the background far from the middle of the picture, with a
-/// grid of thin lines and the shadows of the cloth and the spheres. From below they are not seen.
+/// Draws the grounds: infinite planes that fade into the background far from the middle of the picture, with a grid of
+/// thin lines and the shadows of cloth and spheres. They are invisible from below.
 class DrawGround {
  public:
-  /// @param sphere_count in every frame
+  /// @param sphere_count number of spheres in every frame
   DrawGround(GlDevice& device, const Look& look, std::size_t sphere_count);
 
-  /// @param shadow  of the cloth, where the look has shadows
-  /// @param picture its width and height [pixels]
+  /// @param shadow  shadow map of the cloth, if the look has shadows
+  /// @param picture width and height [pixels]
   void draw(const Shot& shot, const ClothShadow* shadow, Eigen::Vector2i picture);
 
  private:
@@ -28,10 +28,10 @@ class DrawGround {
   const GlFunctions& gl_;
   Look look_;
   const Program* lit_;
-  const Program* shadowed_ = nullptr;  // where the look has shadows
-  VertexArray array_;                  // without attributes: the shader knows the corners of the picture
+  const Program* shadowed_ = nullptr;  // null if the look has no shadows
+  VertexArray array_;                  // without attributes: the shader computes the picture's corners
   Texture texture_;
-  GroundShadow shadow_;  // of the cloth, on one ground after the other
+  GroundShadow shadow_;  // of the cloth, for one ground after the other
 };
 
 }  // namespace drape

@@ -13,13 +13,13 @@
 namespace drape {
 namespace {
 
-/// Segments of the rings, from the middle of the cap to its rim, each a multiple of the one before. The rim is within
-/// 0.03 % of the radius of a circle. Every pixel finds its own place on the sphere: more of them inside would only
-/// change the depth, by less than sphere.vert's depth_radius leaves. And pixels are drawn in blocks, of which small
-/// triangles share many.
+/// Segments of the rings from the middle of the cap to its rim, each a multiple of the previous. The rim deviates from
+/// a circle by at most 0.03 % of the radius. Each pixel computes its exact point on the sphere, so more inner rings
+/// would change only the depth, by less than the margin of depth_radius in sphere.vert. Pixels are drawn in blocks, and
+/// small triangles share many of these.
 constexpr std::array<unsigned, 5> ring_segments{1, 16, 32, 32, 128};
 
-/// Polar coordinates of the cap's vertices: how far from its middle (0) to its rim (1), and the direction.
+/// Returns the polar coordinates of the cap's vertices: radius from its middle (0) to its rim (1), and direction.
 std::vector<Eigen::Vector3f> cap_vertices() {
   std::vector<Eigen::Vector3f> vertices;
   for (std::size_t ring = 0; ring < ring_segments.size(); ++ring) {
@@ -32,7 +32,7 @@ std::vector<Eigen::Vector3f> cap_vertices() {
   return vertices;
 }
 
-/// Between two rings, each segment of the inner one has a triangle, and a fan of those of the outer one.
+/// Fills the gap between two rings: each inner segment gets one triangle and a fan of outer ones.
 std::vector<unsigned> cap_triangles() {
   std::vector<unsigned> indices;
   unsigned first = 0;
@@ -87,7 +87,8 @@ void DrawSphere::draw(const Shot& shot, const ClothShadow* shadow) {
   if (shadow != nullptr) shadow->set_uniforms(program_);
   gl_.BindVertexArray(array_.id());
   for (const Eigen::Vector4f& sphere : shot.spheres) {
-    if ((shot.eye - sphere.head<3>()).norm() <= sphere[3]) continue;  // its outside cannot be seen from within
+    if ((shot.eye - sphere.head<3>()).norm() <= sphere[3])
+      continue;  // the camera is inside the sphere and cannot see its outside
     program_.set("sphere", std::span(&sphere, 1));
     gl_.DrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
   }

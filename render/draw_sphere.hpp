@@ -11,15 +11,15 @@
 
 namespace drape {
 
-/// Draws the spheres: smooth and glossy. Of each only the part that the camera can see is drawn, a cap whose rim is the
-/// exact outline, so that multisampling gives it clean edges.
+/// Draws the spheres: smooth and glossy. It draws only the visible cap of each, whose rim is the exact outline, so that
+/// multisampling gives clean edges.
 class DrawSphere {
  public:
-  /// @param sphere_count in every frame
-  /// @param ground_count that the camera sees in every frame; what is below them is not drawn
+  /// @param sphere_count number of spheres in every frame
+  /// @param ground_count number of grounds visible in every frame; parts below them are not drawn
   DrawSphere(GlDevice& device, const Look& look, std::size_t sphere_count, std::size_t ground_count);
 
-  /// @param shadow of the cloth, where the look has shadows
+  /// @param shadow shadow map of the cloth, if the look has shadows
   void draw(const Shot& shot, const ClothShadow* shadow);
 
  private:

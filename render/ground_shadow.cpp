@@ -10,9 +10,9 @@ namespace drape {
 namespace {
 
 constexpr int merged_texels = 2;                  // texels of the map along each side of a pixel
-constexpr int sharp_radius = 1, soft_radius = 6;  // of the boxes that blur, in pixels
-constexpr int soft_border = 3 * soft_radius + 1;  // pixels that the softest edge takes on each side
-constexpr double lowest_light = 0.02;             // of its direction along the normal
+constexpr int sharp_radius = 1, soft_radius = 6;  // radii of the box blurs [pixels]
+constexpr int soft_border = 3 * soft_radius + 1;  // width of the softest edge on each side [pixels]
+constexpr double lowest_light = 0.02;             // least cosine between light and normal
 
 }  // namespace
 
@@ -54,8 +54,8 @@ void GroundShadow::clear() {
   v_.setZero();
 }
 
-// The ground's depth in the map is a·column + b·row + c: on the ray of a place in the map, p + t·light, the ground is
-// where n·p + t n·light is its height.
+// The ground's depth in the map is a·column + b·row + c. The ray through a point p of the map, p + t·light, meets the
+// ground where n·p + t n·light equals the ground's height.
 void GroundShadow::project(const DepthMap& map, const GroundShape& ground, double softening) {
   const double texel = map.texel();
   const Eigen::Vector3d right = texel * map.u().head<3>(), up = texel * map.v().head<3>(),
@@ -76,7 +76,7 @@ void GroundShadow::project(const DepthMap& map, const GroundShape& ground, doubl
     const std::size_t place =
         static_cast<std::size_t>(row / merged_texels + soft_border) * static_cast<std::size_t>(columns_);
     for (int column = 0; column < inner_columns * merged_texels; ++column) {
-      if (nearest[column] < farthest[column]) continue;  // empty
+      if (nearest[column] < farthest[column]) continue;  // empty texel
       const double height = double{farthest[column]} - (a * (column + 0.5) + b * (row + 0.5) + c);
       const auto relative = static_cast<float>(std::max(height * rise, 0.0) / softening);
       const float sharpness = 1 / (1 + relative + relative * relative);
@@ -94,8 +94,8 @@ void GroundShadow::project(const DepthMap& map, const GroundShape& ground, doubl
   v_ /= rows_;
 }
 
-// Three box filters along both axes, which come close to a Gaussian. All go along columns, as a row of sums is what
-// processors add up fast; in between the picture is transposed.
+// Three box filters along each axis approximate a Gaussian. All run along columns, because processors add rows of sums
+// fast; the image is transposed in between.
 void GroundShadow::blur(std::vector<float>& image, int radius) {
   auto width = static_cast<std::size_t>(columns_), height = static_cast<std::size_t>(rows_);
   for (int axis = 0; axis < 2; ++axis) {

@@ -10,28 +10,27 @@
 
 namespace drape {
 
-/// The shadow of a cloth on a ground, as a picture seen from the light. Where the cloth is near the ground the shadow's
-/// edge is sharp, higher up it is soft: as every point of the ground has one place in the picture, edges can be
-/// softened here, once a frame, and not in every pixel.
+/// The shadow of a cloth on a ground, as a picture seen from the light. Its edge is sharp where the cloth is near the
+/// ground and soft higher up. Each point of the ground has one pixel in the picture, so edges are softened once per
+/// frame instead of in every drawn pixel.
 class GroundShadow {
  public:
   /// Casts the shadow.
-  /// @param map       of the cloth, seen from the light
-  /// @param to_light  unit vector; from a light below the ground there is no shadow on it
-  /// @param softening height of the cloth above the ground from which on the shadow is mostly soft [m]
+  /// @param map       depth map of the cloth, seen from the light
+  /// @param to_light  unit vector; a light below the ground casts no shadow on it
+  /// @param softening height of the cloth above the ground from which the shadow is mostly soft [m]
   void cast(const DepthMap& map, const GroundShape& ground, const Eigen::Vector3d& to_light, double softening);
 
-  /// Whether the light reaches a ground at all, so that there can be a shadow.
+  /// Returns true if the light reaches a ground, so that there can be a shadow.
   [[nodiscard]] static bool reaches(const GroundShape& ground, const Eigen::Vector3d& to_light);
-  /// The four points of the ground at the corners of the picture, beyond which there is no shadow; none without a
-  /// picture.
+  /// Returns the four points of the ground at the picture's corners; no shadow lies outside. Empty without a picture.
   [[nodiscard]] std::vector<Eigen::Vector3d> corners(const GroundShape& ground) const;
 
   [[nodiscard]] int columns() const { return columns_; }
   [[nodiscard]] int rows() const { return rows_; }
-  /// How much of the light is taken, from 0 to 65535, rows from below; 0 along the border.
+  /// Blocked part of the light, 0 to 65535, rows from below; 0 along the border.
   [[nodiscard]] const std::vector<std::uint16_t>& pixels() const { return pixels_; }
-  /// A point x of the ground is at texture coordinates (u·(x, 1), v·(x, 1)), 0 to 1 within the picture.
+  /// Coefficients of a ground point x's texture coordinates (u·(x, 1), v·(x, 1)), 0 to 1 within the picture.
   [[nodiscard]] const Eigen::Vector4d& u() const { return u_; }
   [[nodiscard]] const Eigen::Vector4d& v() const { return v_; }
 

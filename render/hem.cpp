@@ -8,15 +8,15 @@
 namespace drape {
 namespace {
 
-/// Parts of an edge's length that the tube's radius does not exceed, in a cloth that is small or finely divided.
+/// Largest radius of the tube as a fraction of an edge's length, for a small or finely divided cloth.
 constexpr double largest_radius = 0.25;
 
 struct BorderEdge {
   int from, to, piece;
-  std::size_t corner;  // at `from`
+  std::size_t corner;  // corner of `from`
 };
 
-/// The edges of one triangle, in the order of the pieces.
+/// Returns the edges with one triangle, in the order of the pieces.
 std::vector<BorderEdge> border_edges(const std::vector<SmoothSurface::Piece>& pieces) {
   std::map<Edge, int> uses;
   for (const auto& piece : pieces) {
@@ -37,7 +37,7 @@ std::vector<BorderEdge> border_edges(const std::vector<SmoothSurface::Piece>& pi
 Hem::Hem(const SmoothSurface& surface, double thickness) : thickness_(thickness) {
   if (!(thickness > 0)) return;
   const std::vector<BorderEdge> edges = border_edges(surface.pieces());
-  std::map<int, int> numbers;  // of the border's vertices
+  std::map<int, int> numbers;  // numbers of the border's vertices
   const auto number_of = [&](int vertex, const Corner& corner) {
     const auto [known, is_new] = numbers.try_emplace(vertex, static_cast<int>(border_.size()));
     if (is_new) {

@@ -8,33 +8,33 @@
 
 namespace drape {
 
-/// The rounded rim of a cloth: half a tube along the edges that only one triangle has. It shows that cloth has a
-/// thickness, where a surface without one would end in nothing.
+/// The rounded rim of a cloth: half a tube along its border edges, which have one triangle. It makes the cloth's
+/// thickness visible.
 class Hem {
  public:
-  /// A vertex of the tube belongs to a corner of a piece.
+  /// The corner of a piece that a vertex of the tube belongs to.
   struct Corner {
     int piece;
     std::size_t corner;
   };
 
-  /// @param surface of which the hem is; its vertices come before those of the hem
-  /// @param thickness of the cloth [m]; 0: no hem
+  /// @param surface surface to hem; its vertices precede the hem's
+  /// @param thickness thickness of the cloth [m]; 0: no hem
   Hem(const SmoothSurface& surface, double thickness);
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// The piece that each triangle lies at.
+  /// Returns the adjacent piece of each triangle.
   [[nodiscard]] const std::vector<int>& pieces() const { return pieces_; }
   [[nodiscard]] const std::vector<Corner>& corners() const { return corners_; }
 
-  /// Appends the vertices of the hem, and the normals of its tube.
-  /// @param positions,normals of the surface's vertices
+  /// Appends the hem's vertices and the normals of its tube.
+  /// @param positions,normals positions and normals of the surface's vertices
   void append(Vertices& positions, Vertices& normals) const;
 
  private:
   static constexpr int ring = 3;  // vertices around half a tube
 
-  /// A vertex at the border, and the ends of its edges there, in the direction that has the cloth on its left.
+  /// A vertex of the border and its neighbours there, ordered with the cloth on the left.
   struct BorderVertex {
     int vertex, before, after;
   };
@@ -43,7 +43,7 @@ class Hem {
   std::vector<BorderVertex> border_;
   std::vector<Triangle> triangles_;
   std::vector<int> pieces_;
-  std::vector<Corner> corners_;  // of each vertex of the hem
+  std::vector<Corner> corners_;  // per vertex of the hem
 };
 
 }  // namespace drape

@@ -9,22 +9,22 @@ namespace {
 
 using Bytes = std::span<const unsigned char>;
 
-/// A whole number of `count` bytes, the highest first.
+/// Reads a whole number of `count` bytes, big-endian.
 int number_at(Bytes bytes, std::size_t offset, std::size_t count) {
   int number = 0;
   for (const unsigned char byte : bytes.subspan(offset, count)) number = number << 8 | byte;
   return number;
 }
 
-/// A signature of 8 bytes, then the chunk IHDR (length, name, width, height, …).
+/// Reads an 8-byte signature, then the chunk IHDR (length, name, width, height, …).
 std::optional<ImageSize> size_of_png(Bytes bytes) {
   constexpr std::size_t width = 16, height = 20, end = 24;
   if (bytes.size() < end || bytes[width] > 0x7F || bytes[height] > 0x7F) return std::nullopt;
   return ImageSize{number_at(bytes, width, 4), number_at(bytes, height, 4)};
 }
 
-/// Segments of a marker (FF and a code), a length without the marker's, and contents; one of them is the start of the
-/// frame (SOF0 to SOF15, whose numbers DHT, JPG and DAC share): precision, height, width, …
+/// Reads segments: a marker (FF and a code), a length that excludes the marker, and contents. The start of frame (SOF0
+/// to SOF15, except the numbers of DHT, JPG and DAC) holds precision, height, width, …
 std::optional<ImageSize> size_of_jpeg(Bytes bytes) {
   constexpr std::array not_frames{0xC4, 0xC8, 0xCC};
   for (std::size_t at = 2; at + 9 <= bytes.size() && bytes[at] == 0xFF;) {

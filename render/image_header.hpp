@@ -9,8 +9,8 @@ struct ImageSize {
   int width = 0, height = 0;  ///< [pixels]
 };
 
-/// The size that the beginning of a PNG or JPEG file says its picture has, so that one that is too large is known
-/// before memory is taken for it; nothing for other formats and damaged files.
+/// Reads the picture size from the beginning of a PNG or JPEG file, so that a huge picture is refused before memory is
+/// allocated. Returns nothing for other formats and damaged files.
 std::optional<ImageSize> size_in_header(std::span<const unsigned char> bytes);
 
 }  // namespace drape

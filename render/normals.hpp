@@ -6,8 +6,8 @@
 
 namespace drape {
 
-/// n×3: the unit normal of each vertex, the sum of the normals of its triangles weighted by their areas, so that
-/// triangles pressed flat do not count. +z where there is none. Summed in the order of the triangles.
+/// Returns the n×3 unit normals of the vertices. Each sums its triangles' normals, weighted by area, in the order of
+/// the triangles; flattened triangles have no weight. A vertex without a normal gets +z.
 Vertices vertex_normals(const Vertices& positions, const std::vector<Triangle>& triangles);
 
 }  // namespace drape

@@ -6,14 +6,14 @@
 
 namespace drape {
 
-/// What throws shadows and hides the sky: the cloth, and after its vertices those of all bodies, as one mesh. Without
-/// bodies it is the cloth itself, of which nothing is copied.
+/// The mesh that casts shadows and occludes ambient light: the cloth, followed by all bodies. Without bodies it refers
+/// to the cloth and copies nothing.
 class Occluders {
  public:
-  /// @param cloth its triangles, which must outlive this object
+  /// @param cloth triangles of the cloth; must outlive this object
   explicit Occluders(const std::vector<Triangle>& cloth) : cloth_(cloth) {}
 
-  /// @param cloth its positions; it and the frame must outlive what is asked of this object
+  /// @param cloth positions of the cloth; cloth and frame must outlive later calls
   void take(const Vertices& cloth, const Frame& frame);
 
   [[nodiscard]] const Vertices& positions() const { return copied_ ? positions_ : *cloth_positions_; }

@@ -37,20 +37,20 @@ class Renderer::Implementation {
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
-  // The objects that are destroyed next belong to this device, and another may have been used since.
+  // Makes the device current, because the members destroyed next belong to it.
   ~Implementation() {
     try {
       device_->make_current();
     } catch (const std::exception&) {
-      // There is nothing to be done about it here, and Mesa frees the objects with their context.
+      // Ignored: Mesa frees the objects with their context.
     }
   }
 
   void look_from(const View& view) { view_ = view; }
 
-  /// @param colors of the vertices, or none
+  /// @param colors colours of the vertices; empty: none
   Image draw(const Frame& frame, std::span<const Rgb> colors) {
-    if (frame.positions.rows() != vertex_count_) {  // which the triangles refer to
+    if (frame.positions.rows() != vertex_count_) {  // the triangles refer to this many
       throw std::invalid_argument("a frame has another number of vertices than its renderer was made for");
     }
     device_->make_current();
@@ -65,7 +65,7 @@ class Renderer::Implementation {
       grounds_->draw(shot, shadow, size_);
     }
     cloth_.draw(shot, shadow, colors);
-    if (!shot.spheres.empty()) {  // after the cloth that hides much of them
+    if (!shot.spheres.empty()) {  // after the cloth, which hides much of them
       if (!spheres_) spheres_.emplace(*device_, look_, shot.spheres.size(), shot.grounds.size());
       spheres_->draw(shot, shadow);
     }
@@ -87,12 +87,12 @@ class Renderer::Implementation {
   View view_;
   Look look_;
   int vertex_count_;
-  BorrowedDevice device_;  // before all that lives in it
+  BorrowedDevice device_;  // first: the members below belong to it
   Canvas canvas_;
   DrawCloth cloth_;
   Occluders occluders_;
-  std::optional<ClothShadow> shadow_;  // absent where the look has none
-  std::optional<DrawSphere> spheres_;  // made when a frame first has one
+  std::optional<ClothShadow> shadow_;  // absent if the look has none
+  std::optional<DrawSphere> spheres_;  // made at the first frame with a sphere
   std::optional<DrawGround> grounds_;  // likewise
   std::optional<DrawBody> bodies_;     // likewise
 };

@@ -21,17 +21,17 @@
 
 namespace drape {
 
-/// Draws frames without a window. Owns a GL context for its lifetime: make, use and destroy it on one thread, which may
-/// have several. The next renderer, on any thread, reuses the context and the compiled shaders of one that has been
-/// destroyed. The same frame gives the same bytes, on any number of threads inside Mesa.
+/// Draws frames without a window. Owns a GL context during its lifetime: make, use and destroy it on one thread; a
+/// thread may have several. The next renderer, on any thread, reuses a destroyed one's context and compiled shaders. A
+/// frame always gives the same bytes, for any number of Mesa's threads.
 class Renderer {
  public:
   /// @param data_folder  holds shaders/
-  /// @param size         of the picture [pixels]
-  /// @param vertex_count of the cloth in every frame
-  /// @param triangles    of the cloth
+  /// @param size         picture size [pixels]
+  /// @param vertex_count number of cloth vertices in every frame
+  /// @param triangles    triangles of the cloth
   /// @param uvs          per triangle corner as in Mesh::uvs; may be empty if look.texture is
-  /// @param backend      which library makes the OpenGL context
+  /// @param backend      source of the OpenGL context
   /// @throws UsageError  if look.texture cannot be read or there are no uvs for it
   /// @throws OutputError if the backend or OpenGL 3.3 is missing or a shader does not compile
   Renderer(const std::filesystem::path& data_folder, Eigen::Vector2i size, const View& view, const Look& look,
@@ -44,16 +44,17 @@ class Renderer {
   /// Draws the following frames from another viewpoint.
   void look_from(const View& view);
 
+  /// Draws a frame.
   /// @throws std::invalid_argument if the frame has another number of vertices
   /// @throws OutputError if OpenGL reports an error
   Image draw(const Frame& frame);
 
-  /// Draws the cloth with a colour per vertex, which shows something about it, in place of its texture or colour.
-  /// @param vertex_colors one for each vertex; they are lit like any other
-  /// @throws std::invalid_argument if there is not one for each vertex
+  /// Draws the cloth with data colours per vertex instead of its texture or colour.
+  /// @param vertex_colors one per vertex; they are lit like any other
+  /// @throws std::invalid_argument if their number differs from that of the vertices
   Image draw(const Frame& frame, const std::vector<Rgb>& vertex_colors);
 
-  /// The OpenGL renderer in use, and its version.
+  /// Returns the name and version of the OpenGL renderer in use.
   [[nodiscard]] std::string description() const;
 
  private:

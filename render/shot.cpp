@@ -14,15 +14,15 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// A direction in the axes of a view, of which the second goes to the sky instead of upwards in the picture.
+/// Returns a direction in a view's axes, with the second axis towards the sky instead of the picture's top.
 Eigen::Vector3d towards(const View& view, double right, double upwards, double backwards) {
   const Eigen::Matrix3d axes = view.axes();
   return (right * axes.row(0).transpose() + upwards * unit_vector(view.up) + backwards * axes.row(2).transpose())
       .normalized();
 }
 
-/// The floor of a backdrop: it crosses the picture's lower edge where the camera looks, or goes a little deeper. It
-/// hides nothing.
+/// Returns the floor of a backdrop, at or a little below the picture's lower edge at the target's depth. It hides
+/// nothing.
 GroundShape backdrop_floor(const View& view, double extent) {
   const Eigen::Vector3d sky = unit_vector(view.up);
   const double upright = view.axes().row(1).dot(sky);

@@ -12,35 +12,36 @@
 
 namespace drape {
 
-/// What everything that is drawn in one frame shares: the camera and the lights.
+/// Data of one frame that all draw calls share: camera and lights.
 struct Shot {
   const Frame& frame;
   Eigen::Matrix4f view_projection;       ///< from the world to clip space
   Eigen::Vector3f eye;                   ///< [m]
-  Eigen::Vector3f back;                  ///< unit vector from where the camera looks to the camera
-  double extent;                         ///< what the picture's height shows, where the camera looks [m]
-  Eigen::Vector3f up;                    ///< the sky is there
+  Eigen::Vector3f back;                  ///< unit vector from the target to the camera
+  double extent;                         ///< height of the scene that the picture shows, at the target [m]
+  Eigen::Vector3f up;                    ///< direction of the sky
   Eigen::Vector3f key_direction;         ///< unit vector towards the key light
   Eigen::Vector3f fill_direction;        ///< unit vector towards the fill light
   std::vector<Eigen::Vector4f> spheres;  ///< center and radius of each [m]
-  std::vector<GroundShape> grounds;      ///< those that are seen from above
+  std::vector<GroundShape> grounds;      ///< those seen from above
   std::vector<const MeshShape*> bodies;  ///< of the frame
-  float exposure;                        ///< by what light is multiplied
-  bool backdrop = false;                 ///< whether the only ground is a backdrop's floor
+  float exposure;                        ///< factor of all light
+  bool backdrop = false;                 ///< true if the only ground is a backdrop's floor
 
-  /// The lights stand with the camera, so that a scene looks alike from every side, unless the look places the key
+  /// Places the lights relative to the camera, so that a scene looks alike from every side; the look may place the key
   /// light.
   Shot(const Frame& shown, const View& view, double aspect, const Look& look = {});
 
-  /// Hands all of it to a program that includes lighting.glsl and is in use.
+  /// Sets the uniforms of lighting.glsl in a program that is in use.
   void set_uniforms(const Program& program) const;
 };
 
-/// The unit vector towards the key light.
+/// Returns the unit vector towards the key light.
 Eigen::Vector3d key_light(const View& view, const Look& look);
 
-/// What shaders that include shadow.glsl are compiled with: what the look switches off is not in them.
-/// @param shadows whether what they draw may have shadows on it
+/// Returns the preprocessor definitions for shaders that include shadow.glsl; features that the look disables are left
+/// out.
+/// @param shadows true if shadows may fall on the drawn objects
 std::vector<std::string> light_defines(const Look& look, std::size_t sphere_count, bool shadows);
 
 }  // namespace drape

@@ -9,22 +9,22 @@
 namespace drape {
 namespace {
 
-/// Pixels that a piece takes where a cloth fills a third of the picture.
+/// Pixels per piece if the cloth fills a third of the picture.
 constexpr double piece_pixels = 16, filled_part = 0.33;
 constexpr int most_levels = 3;
 constexpr std::size_t most_pieces = 60000;
 
-/// How much of the way from a vertex to its place on the limit surface the control point is moved in the other
-/// direction. With 1 the surface comes so near to the vertices that a body's corner stays below it.
+/// Fraction of a vertex's displacement to the limit surface by which its control point moves the opposite way. With 1
+/// the surface lies so near the vertices that a body's corner stays below it.
 constexpr double sharpness = 1;
 
-/// Triangles at a crease vertex up to which it is a corner.
+/// Most triangles of a crease vertex that counts as a corner.
 constexpr int corner_triangles = 2;
 
 struct EdgeUse {
   int number = 0;  // of the edge
   int uses = 0;
-  std::array<int, 2> opposite{};  // vertices of the first two triangles
+  std::array<int, 2> opposite{};  // opposite vertices in the first two triangles
 };
 
 /// The neighbourhoods of a mesh's vertices.
@@ -59,8 +59,8 @@ struct Neighbourhood {
 using Weights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Entries = std::vector<Eigen::Triplet<double>>;
 
-/// How a vertex moves: to a mean of itself and its neighbours, or those along a crease.
-/// @param limit whether it moves to its place on the limit surface, rather than that of the next level
+/// Adds the weights of a vertex: a mean of itself and its neighbours, or its neighbours along a crease.
+/// @param limit true: its position on the limit surface; false: its position on the next level
 void add_vertex(Entries& entries, const Neighbourhood& mesh, int vertex, bool limit) {
   const auto i = static_cast<std::size_t>(vertex);
   const std::vector<int>& creases = mesh.crease_neighbors[i];
@@ -138,7 +138,7 @@ void SmoothSurface::divide() {
   for (const Piece& piece : pieces_) {
     std::array<int, 3> middles{};
     std::array<std::array<float, 3>, 3> weights{};
-    for (std::size_t c = 0; c < 3; ++c) {  // opposite to corner c
+    for (std::size_t c = 0; c < 3; ++c) {  // edge opposite corner c
       const std::size_t p = (c + 1) % 3, q = (c + 2) % 3;
       middles[c] = mesh.edges.at(undirected(piece.corners[p], piece.corners[q])).number;
       for (std::size_t k = 0; k < 3; ++k) weights[c][k] = (piece.weights[p][k] + piece.weights[q][k]) / 2;

@@ -22,8 +22,8 @@
 namespace drape {
 namespace {
 
-/// OpenCV's PNG and JPEG readers fill what is missing of a cut file with grey and only print a warning, so the file's
-/// end is looked at here.
+/// Detects a truncated file by its end. OpenCV's PNG and JPEG readers would fill the missing part with grey and only
+/// print a warning.
 bool is_cut(std::span<const unsigned char> bytes) {
   const auto starts_with = [&bytes](std::initializer_list<unsigned char> signature) {
     return bytes.size() >= signature.size() && std::equal(signature.begin(), signature.end(), bytes.begin());
@@ -41,8 +41,7 @@ void require_size(const std::filesystem::path& file, int width, int height, int 
     throw UsageError(fmt::format("the texture {} has {}x{} pixels; at most {}x{} can be drawn", shown(file), width,
                                  height, largest, largest));
   }
-  // Of every pixel the bytes that were decoded, linear light as numbers and as 16 bits, and half of these again for the
-  // smaller levels.
+  // Per pixel: the decoded bytes, linear light as floats and as 16 bits, and half of the latter two for smaller levels.
   constexpr double bytes_per_pixel = 3 + 1.5 * (12 + 6);
   require_memory(fmt::format("the texture {} of {}x{} pixels", shown(file), width, height),
                  bytes_per_pixel * width * height, "use a smaller picture");
@@ -52,7 +51,7 @@ std::string read_bytes(const std::filesystem::path& file) {
   constexpr std::size_t most = std::size_t{1} << 30;
   std::error_code ignored;
   try {
-    // It is looked at before it is drawn.
+    // The file is read twice: when it is checked and when it is drawn.
     if (std::filesystem::is_fifo(file, ignored)) throw UsageError(shown(file) + ": a pipe cannot be read twice");
     return read_file(file, most);
   } catch (const UsageError& error) {
@@ -96,7 +95,7 @@ TextureLevel to_level(const cv::Mat& linear) {
   return level;
 }
 
-/// Linear light, 0 to 1, of the bytes of sRGB.
+/// Converts sRGB bytes to linear light, 0 to 1.
 cv::Mat to_linear(const cv::Mat& encoded) {
   std::array<float, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -112,7 +111,7 @@ cv::Mat to_linear(const cv::Mat& encoded) {
   return linear;
 }
 
-/// Does what needs memory for a texture, and says which it was if there was not enough.
+/// Runs work that allocates memory for a texture, and names the texture if memory runs out.
 template <class Work>
 auto with_memory(const std::filesystem::path& file, Work work) {
   try {

@@ -5,7 +5,7 @@
 
 namespace drape {
 
-/// A vector of length 1 in a direction, also where the square of its length overflows or vanishes.
+/// Normalises a vector, even if its squared length overflows or underflows.
 inline Eigen::Vector3d unit_vector(const Eigen::Vector3d& v) {
   return std::isnormal(v.squaredNorm()) ? v.normalized() : v.stableNormalized();
 }

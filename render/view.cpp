@@ -17,14 +17,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-/// From the target to the camera.
+/// Returns the unit vector from the target to the camera.
 Eigen::Vector3d direction(const Camera& camera) {
   const double azimuth = radians(camera.azimuth.value_or(Camera::usual_azimuth));
   const double elevation = radians(camera.elevation.value_or(Camera::usual_elevation));
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
 }
 
-/// The camera's up, or, when it looks along that, the direction in which up goes over as the camera rises to there.
+/// Returns the camera's up; if the camera looks along it, its limit as the camera rises to that direction.
 Eigen::Vector3d usable_up(const Camera& camera) {
   const Eigen::Vector3d back = direction(camera);
   if (unit_vector(camera.up).cross(back).norm() > 1e-6) return camera.up;
@@ -80,8 +80,8 @@ DepthRange depth_range(const View& view, const Frame& frame, double thickness) {
     for_each_ball(collider,
                   [&](const Eigen::Vector3d& center, double radius) { add(center.dot(forward) - origin, radius); });
   }
-  if (!(farthest > 0)) return {};  // all of it is behind the camera
-  // The surface that is drawn of a cloth reaches a little beyond its vertices.
+  if (!(farthest > 0)) return {};  // everything is behind the camera
+  // The drawn surface of a cloth extends a little beyond its vertices.
   const double room = thickness + 0.02 * std::max(farthest - nearest, 1e-3 * farthest);
   farthest += room;
   // A ground is seen in front of everything else and behind it, where its depth need only be that of the range's ends.
@@ -162,7 +162,7 @@ Eigen::Vector3d Framing::middle() const {
   return median;
 }
 
-// Each plane on its own is where that part of the frames is beyond it.
+// Moves each plane inwards until the allowed fraction of frames is beyond it, each plane on its own.
 std::array<Framing::Fan, 2> Framing::without_farthest() const {
   std::array<Fan, 2> fans = fans_;
   if (frames_.empty()) return fans;
@@ -186,13 +186,13 @@ View Framing::view() const {
   if (camera_.position)
     return {*camera_.position, camera_.target.value_or(middle()), camera_.up, camera_.field_of_view};
 
-  // In the camera's axes, e = (x, y, z): the planes at the right and left are cos·x + sin·z ≥ upper and
-  // -cos·x + sin·z ≥ lower, and those at the top and bottom are the same with y.
+  // With e = (x, y, z) in the camera's axes, the right and left planes are cos·x + sin·z ≥ upper and
+  // -cos·x + sin·z ≥ lower; the top and bottom planes are the same with y.
   const std::array<Fan, 2> fans = without_farthest();
   Eigen::Vector3d target = axes_ * camera_.target.value_or(middle());
   Eigen::Vector3d eye = target;
   constexpr int free = widths - 1;
-  eye[2] += 1e-3;  // a single point is not looked at from where it is
+  eye[2] += 1e-3;  // keeps the camera away from a motion that is a single point
   for (int axis = 0; axis < 2; ++axis) {
     const Fan& fan = fans[static_cast<std::size_t>(axis)];
     if (camera_.target) {
@@ -205,7 +205,7 @@ View Framing::view() const {
   if (!camera_.target) {
     for (int axis = 0; axis < 2; ++axis) {
       const Fan& fan = fans[static_cast<std::size_t>(axis)];
-      int narrowest = 0;  // of those in which the motion fits
+      int narrowest = 0;  // of the frustums that contain the motion
       while (narrowest < free && fan.upper[narrowest] + fan.lower[narrowest] > 2 * fan.sines[narrowest] * eye[2]) {
         ++narrowest;
       }

@@ -19,42 +19,42 @@ struct DepthRange {
   double near = 0.1, far = 100;
 };
 
-/// A perspective camera with all of its parameters known.
+/// A perspective camera with all parameters known.
 struct View {
   Eigen::Vector3d position{0, 0, 1};  ///< [m]
-  Eigen::Vector3d target{0, 0, 0};    ///< what is in the middle of the picture [m]
+  Eigen::Vector3d target{0, 0, 0};    ///< point in the middle of the picture [m]
   Eigen::Vector3d up{0, 1, 0};        ///< points upwards in the picture; need not be perpendicular to the view
   double field_of_view = 30;          ///< of the picture's height [degrees]
 
-  /// Rows: the unit vectors that point to the picture's right, to its top, and towards the viewer. Where `up` lies in
-  /// the direction of the view, +y is upwards instead, or else +z.
+  /// Returns as rows the unit vectors to the picture's right, to its top, and towards the viewer. If `up` is parallel
+  /// to the view, +y replaces it, or else +z.
   [[nodiscard]] Eigen::Matrix3d axes() const;
 
-  /// From the world to the camera, which looks along its own −z.
+  /// Returns the transformation from the world to the camera, which looks along its own −z.
   [[nodiscard]] Eigen::Matrix4d view_matrix() const;
 
-  /// From the camera to clip space, as OpenGL defines it.
+  /// Returns the projection from the camera to OpenGL's clip space.
   /// @param aspect width of the picture by its height
   [[nodiscard]] Eigen::Matrix4d projection_matrix(double aspect, const DepthRange& depth) const;
 };
 
-/// The range that holds everything of the frame in front of the camera, with some room.
-/// @param thickness of the cloth [m]
+/// Returns the range that holds everything of the frame in front of the camera, with some margin.
+/// @param thickness thickness of the cloth [m]
 DepthRange depth_range(const View& view, const Frame& frame, double thickness = 0);
 
-/// The view from 1 m in the direction in which a camera without a position stands, towards the origin. Where it looks
-/// along its `up`, the view's is another.
+/// Returns the view from 1 m towards the origin, in the direction of a camera without a position. If that camera looks
+/// along its `up`, the view gets another up.
 View distant_view(const Camera& camera);
 
-/// Whether the motion must be known before the camera's view is: it must unless both position and target are given.
+/// Returns true if the view depends on the motion: unless both position and target are given.
 bool needs_motion(const Camera& camera);
 
-/// The view of a camera for which needs_motion() is false.
+/// Returns the view of a camera for which needs_motion() is false.
 /// @throws std::invalid_argument if it is true
 View fixed_view(const Camera& camera);
 
-/// Calls visit(center, radius) for balls whose convex hull holds a collider: a mesh's vertices, [m]. A ground has none,
-/// as it has no end: a picture shows what lies on it.
+/// Calls visit(center, radius) [m] for balls whose convex hull holds a collider; for a mesh these are its vertices. A
+/// ground is infinite and has none: the picture frames the objects on it.
 template <class Visit>
 void for_each_ball(const Collider& collider, const Visit& visit) {
   if (const auto* sphere = std::get_if<SphereShape>(&collider)) visit(sphere->center, sphere->radius);
@@ -63,33 +63,32 @@ void for_each_ball(const Collider& collider, const Visit& visit) {
   }
 }
 
-/// Finds the view that shows a whole motion, from a camera whose direction is known and whose place is not.
+/// Finds the nearest view in a known direction that shows a whole motion.
 ///
 /// A point p is inside a perspective frustum if it is on the inner side of four planes, n_k·p ≤ n_k·e for a camera at
-/// e, whose unit normals n_k are known. So of the whole motion only the four maxima of n_k·p have to be kept (a sphere
-/// adds its radius), and the nearest e that fulfils all is exact, not an estimate from a bounding box. The maxima for
-/// narrower frustums tell how to centre the axis in which there is space left over.
+/// e, with known unit normals n_k. So only the four maxima of n_k·p over the motion are needed (a sphere adds its
+/// radius), and the nearest e that satisfies all four is exact, unlike an estimate from a bounding box. Maxima for
+/// narrower frustums determine how to centre the axis that has free space.
 class Framing {
  public:
   /// @param aspect width of the picture by its height
   Framing(const Camera& camera, double aspect);
 
   void add(const Vertices& positions);
-  /// A ground, which has no end, is not added.
+  /// Adds a collider; ignores a ground, which is infinite.
   void add(const Collider& collider);
-  /// What was added since the last call belongs to one frame. Needed where the camera may leave something outside.
+  /// Ends a frame: it holds everything added since the last call. Needed if the camera has `outside`.
   void end_frame();
 
-  /// Of the box around everything added; where something may be outside, the median of the frames'. [m]
+  /// Returns the centre of the bounding box; with `outside`, the median over the frames [m].
   [[nodiscard]] Eigen::Vector3d middle() const;
 
-  /// Whether nothing has been added.
+  /// Returns true if nothing has been added.
   [[nodiscard]] bool empty() const { return middles_.empty() && lowest_[0] > highest_[0]; }
 
-  /// The view in which everything added is inside with the camera's margin, and as large as that allows; with
-  /// `outside`, on each side of the picture, in all frames but the part that reach farthest there. Without a target the
-  /// space that is left over, in one of the two axes, is the same on both sides. A camera with a position stays there
-  /// and turns to its target, or else to the middle of the motion.
+  /// Returns the closest view that holds everything added, with the camera's margin. With `outside`, on each side of
+  /// the picture, the frames that reach farthest may be cut. Without a target, free space in one of the two axes is
+  /// split equally. A camera with a position stays there and turns to its target, or else to the middle of the motion.
   /// @throws std::logic_error if nothing has been added
   [[nodiscard]] View view() const;
 
@@ -97,10 +96,10 @@ class Framing {
   static constexpr int widths = 64;
   using Widths = Eigen::Array<double, widths, 1>;
 
-  /// The planes on both sides of the view, horizontally or vertically, of frustums from very narrow to the free one.
+  /// Planes on two opposite sides, horizontally or vertically, of frustums from very narrow to the full one.
   struct Fan {
     Widths cosines, sines;  // of half the opening angle, ascending
-    Widths upper, lower;    // the largest n·p for the planes at the right or the top, at the left or the bottom
+    Widths upper, lower;    // largest n·p for the right or top planes, and for the left or bottom planes
   };
 
   void add_ball(const Eigen::Vector3d& center, double radius);
@@ -109,8 +108,8 @@ class Framing {
   Camera camera_;
   Eigen::Matrix3d axes_;                    // as View::axes(), of a camera without a position
   std::array<Fan, 2> fans_;                 // horizontal, vertical
-  std::vector<Eigen::Vector3d> middles_;    // of each frame, where something may be outside
-  std::vector<std::array<Fan, 2>> frames_;  // likewise; fans_ is of the next one
+  std::vector<Eigen::Vector3d> middles_;    // per frame, with `outside`
+  std::vector<std::array<Fan, 2>> frames_;  // per finished frame, with `outside`; fans_ is of the current frame
   Eigen::Vector3d lowest_, highest_;        // the bounding box
 };
 

@@ -14,22 +14,22 @@ namespace drape {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-constexpr int rows = 56;                       // of the small pictures [pixels]
-constexpr int most_samples = 12;               // frames that are looked at
-constexpr std::size_t most_triangles = 60000;  // of all of them together, for a large mesh fewer frames
-// From the usual azimuth: none looks straight along an axis, at which cloths and what hangs from them mostly lie.
+constexpr int rows = 56;                       // height of the small pictures [pixels]
+constexpr int most_samples = 12;               // most frames examined
+constexpr std::size_t most_triangles = 60000;  // of all examined frames together: a large mesh gets fewer frames
+// From the default azimuth. None looks along an axis, because cloths and their supports are mostly aligned with axes.
 constexpr std::array<int, 8> turns{0, 30, 90, 120, 180, 210, 270, 300};  // [degrees]
 constexpr std::array<double, 2> elevations{20, 30};                      // [degrees]
 constexpr double least_above_ground = 0.1;                               // sine of the angle
 
-// What things count.
-constexpr double back_side = 0.85;  // of the cloth, where its front is 1
-constexpr double unlit = 0.45;      // of the cloth, where the key light falls straight on it is 1
-constexpr double bodies = 0.6;      // spheres that are seen whole, where a cloth that fills the picture is 1
-constexpr double movement = 0.1;    // of half the picture's height between two of the frames
-constexpr double unusual = 0.05;    // taken off where the camera stands opposite to where it usually does
+// Weights of the score.
+constexpr double back_side = 0.85;  // back of the cloth, relative to its front
+constexpr double unlit = 0.45;      // unlit cloth, relative to cloth in perpendicular key light
+constexpr double bodies = 0.6;      // fully visible spheres, relative to a cloth that fills the picture
+constexpr double movement = 0.1;    // per half picture height between two frames
+constexpr double unusual = 0.05;    // deducted if the camera stands opposite its usual side
 
-/// Frames of a film, evenly spread.
+/// Returns evenly spread frames of a film.
 std::vector<Frame> samples_of(const KnownFilm& film) {
   const auto affordable = static_cast<int>(most_triangles / std::max<std::size_t>(1, film.triangles.size()));
   const int count = std::min(film.count, std::clamp(affordable, 2, most_samples));
@@ -42,13 +42,13 @@ std::vector<Frame> samples_of(const KnownFilm& film) {
   return samples;
 }
 
-/// What is at a pixel of a small picture.
+/// Object at a pixel of a small picture.
 enum class Seen : std::uint8_t { nothing, front, back, body };
 
-/// Sees frames from far away in one direction, in pictures into which all of them fit.
+/// Draws frames from far away in one direction, in small pictures that hold all of them.
 class Onlooker {
  public:
-  /// @param light unit vector towards the key light, in the axes
+  /// @param light unit vector towards the key light, in these axes
   Onlooker(const std::vector<Frame>& frames, const KnownFilm& film, const Eigen::Matrix3d& axes,
            const Eigen::Vector3d& light)
       : triangles_(film.triangles),
@@ -75,7 +75,7 @@ class Onlooker {
         high = high.max(ball.center + ball.radius);
       }
     }
-    // To pixels: columns and rows from the lower left, and depth towards the viewer in the same measure.
+    // Converts to pixels: columns and rows from the lower left, and depth towards the viewer in the same unit.
     const Eigen::Array2d extent = (high - low).head<2>().max(1e-9);
     const double scale = std::min(columns_ / extent[0], rows / extent[1]);
     Eigen::Array3d shift = -low * scale;
@@ -87,14 +87,14 @@ class Onlooker {
     }
   }
 
-  /// What there is to see, see well_placed().
+  /// Returns the score of the direction, see well_placed().
   double score() {
     double cloth = 0, seen = 0, moved = 0;
     int ball_count = 0;
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
       const Scene& scene = scenes_[i];
       draw(scene);
-      // The root: a cloth that nearly vanishes for a while is worse than one that is smaller all the time.
+      // The root penalises a cloth that nearly vanishes for a while more than one that is always smaller.
       cloth += std::sqrt(shown_cloth() / static_cast<double>(seen_.size()));
       for (const Ball& ball : scene.balls) {
         seen += std::min(1.0, visible(ball));
@@ -112,9 +112,9 @@ class Onlooker {
     double radius;
   };
   struct Scene {
-    Eigen::Array3Xd cloth;  // each vertex
+    Eigen::Array3Xd cloth;  // vertices
     std::vector<Ball> balls;
-    std::vector<Eigen::Array3Xd> bodies;  // the vertices of each, with its triangles
+    std::vector<Eigen::Array3Xd> bodies;  // vertices of each body
     std::vector<const std::vector<Triangle>*> body_triangles;
   };
 
@@ -122,7 +122,7 @@ class Onlooker {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
   }
 
-  /// Calls visit(pixel, column, row) for the pixels whose middles are within a box.
+  /// Calls visit(pixel, column, row) for the pixels whose middles lie within a box.
   template <class Visit>
   void for_each_pixel(const Eigen::Array2d& low, const Eigen::Array2d& high, const Visit& visit) const {
     const auto first = [](double from) { return std::max(0, static_cast<int>(std::ceil(from - 0.5))); };
@@ -151,7 +151,7 @@ class Onlooker {
     worth_[pixel] = worth;
   }
 
-  /// Pixels of the cloth, each by its light and side.
+  /// Returns the pixels of the cloth, weighted by light and side.
   [[nodiscard]] double shown_cloth() const {
     double sum = 0;
     for (std::size_t k = 0; k < seen_.size(); ++k) {
@@ -161,7 +161,7 @@ class Onlooker {
     return sum;
   }
 
-  /// How much a triangle is worth, by the key light on the side that is seen.
+  /// Returns the weight of a triangle: the key light on its visible side.
   [[nodiscard]] double worth(const Eigen::Array3d& a, const Eigen::Array3d& b, const Eigen::Array3d& c) const {
     const Eigen::Vector3d normal = (b - a).matrix().cross((c - a).matrix()).stableNormalized();
     const double cosine = (normal.z() < 0 ? -normal : normal).dot(light_);
@@ -201,7 +201,7 @@ class Onlooker {
     });
   }
 
-  /// How much is seen of a ball, of what would be if it stood alone.
+  /// Returns the visible fraction of a ball.
   [[nodiscard]] double visible(const Ball& ball) const {
     int all = 0, there = 0;
     for_each_pixel(ball, [&](std::size_t pixel, double) {
@@ -220,7 +220,7 @@ class Onlooker {
   std::vector<Seen> seen_;
 };
 
-/// Whether a camera in that direction sees every ground from above.
+/// Returns true if a camera in that direction sees every ground from above.
 bool above_grounds(const std::vector<Frame>& frames, const Eigen::Vector3d& back_direction) {
   for (const Collider& collider : frames.front().colliders) {
     const auto* ground = std::get_if<GroundShape>(&collider);
@@ -229,8 +229,8 @@ bool above_grounds(const std::vector<Frame>& frames, const Eigen::Vector3d& back
   return true;
 }
 
-/// The camera in a direction that is counted about its `up` where both angles are free, and about z as the keys are
-/// where one is given.
+/// Returns the camera in a direction. If both angles are free they are measured about its `up`; if one is given, about
+/// z, as in the scene's keys.
 Camera placed(const Camera& camera, double azimuth, double elevation) {
   Camera there = camera;
   there.azimuth = camera.azimuth.value_or(azimuth);

@@ -12,10 +12,10 @@ in vec3 vertex_color;
 uniform vec3 cloth_color;
 #endif
 #ifdef TRANSLUCENCY
-uniform float translucency;  // part of the key light that shines through
+uniform float translucency;  // fraction of the key light that shines through
 #endif
 #ifdef OCCLUSION
-in vec2 openness;  // of the front and the back: what cloth and spheres leave of the light from all around
+in vec2 openness;  // fraction of ambient light that cloth and spheres leave to the front and to the back
 #endif
 #ifdef MESH_LINES
 uniform vec3 line_color;
@@ -30,8 +30,8 @@ in vec3 world_normal;
 out vec4 color;  // premultiplied
 
 #ifdef MESH_LINES
-// How much of the pixel the lines along the triangle's edges cover. Where the triangle is so small that lines would fill
-// it, they fade.
+// Fraction of the pixel that the lines along the triangle's edges cover. They fade where the triangle is so small that
+// lines would fill it.
 float line_coverage() {
   vec3 across = dFdx(corner_weights), along = dFdy(corner_weights);
   vec3 slope = sqrt(across * across + along * along);  // [1/pixel]
@@ -45,7 +45,7 @@ float line_coverage() {
 #endif
 
 void main() {
-  // Cloth has two sides; the normal is that of the side which is seen.
+  // Cloth has two sides; use the normal of the visible one.
   vec3 n = normalize(world_normal) * (gl_FrontFacing ? 1.0 : -1.0);
   vec3 to_eye = normalize(eye - world_position);
 
@@ -61,7 +61,7 @@ void main() {
   albedo = mix(albedo, line_color, line_coverage());
 #endif
 #ifndef VERTEX_COLORS
-  albedo = max(albedo, 0.02);  // no cloth is as black as a hole
+  albedo = max(albedo, 0.02);  // even black cloth reflects some light
 #endif
 
   float towards = dot(n, key_direction);
@@ -78,13 +78,13 @@ void main() {
 #endif
 #ifdef OCCLUSION
   float open = gl_FrontFacing ? openness.x : openness.y;
-  // What hides the surroundings is cloth of about this colour, and gives back what it gets.
+  // The occluding cloth has about the same colour, and reflects the light that it receives.
   vec3 around = open / (1.0 - 0.7 * albedo * (1.0 - open));
 #else
   const vec3 around = vec3(1.0);
 #endif
 
-  // It has to vanish where the light only grazes the cloth, as whether that is in the shadow is a matter of rounding.
+  // The light must fall to zero at grazing incidence, because rounding decides there if the cloth is in shadow.
   float key = max(0.0, towards);
 #ifdef TRANSLUCENCY
   key += translucency * max(0.0, -towards);
@@ -93,7 +93,7 @@ void main() {
   vec3 surroundings = (ambient_light(n) + fill_light * fill) * around;
   vec3 direct = key_light * lit;
 
-  // Fibres that stand up from the cloth catch light where it is seen edge-on, and give it most of their colour.
+  // Sheen: fibres that stand up catch light where the cloth is seen edge-on, tinted with most of its colour.
   float aside = 1.0 - clamp(dot(n, to_eye), 0.0, 1.0);
   vec3 tint = mix(vec3(1.0), albedo / max(albedo.r, max(albedo.g, albedo.b)), 0.8);
   vec3 sheen = 0.16 * tint * aside * aside * aside * (surroundings + direct * max(0.0, towards));
@@ -101,7 +101,7 @@ void main() {
   vec3 specular = direct * 0.03 * highlight(n, key_direction, 12.0, glance * glance * glance);
 
 #ifdef VERTEX_COLORS
-  // Colours that say something keep their value; only how squarely the surface is seen shows its folds, faintly.
+  // Data colours keep their value; only a slight darkening at edge-on view shows the folds.
   color = vec4(albedo * (1.0 - 0.35 * aside * aside), 1.0);
 #else
   color = vec4(film(albedo * (surroundings + direct * key) + sheen + specular), 1.0);

@@ -14,7 +14,7 @@ layout(location = 4) in vec3 line_scale;
 layout(location = 5) in vec3 own_color;  // linear light
 #endif
 #ifdef OCCLUSION
-layout(location = 6) in vec2 open_sides;  // what the cloth leaves, of the front and the back
+layout(location = 6) in vec2 open_sides;  // fraction of ambient light that the cloth leaves to the front and to the back
 #endif
 
 out vec3 world_position;

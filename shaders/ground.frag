@@ -5,8 +5,8 @@
 
 uniform mat4 view_projection;
 uniform vec4 ground;      // unit normal, height [m]
-uniform vec4 focus;       // where the camera looks, and how far from there the ground is seen [m]
-uniform float sunk;       // how far below its surface the ground begins to hide things [m]
+uniform vec4 focus;       // point where the camera looks, and radius around it to which the ground is visible [m]
+uniform float sunk;       // depth below its surface from which the ground hides objects [m]
 uniform vec3 ground_color;
 uniform float grid_spacing;  // [m]; 0: no lines
 #ifdef SHADOWS
@@ -18,7 +18,7 @@ in vec4 far_point;
 
 out vec4 color;  // premultiplied
 
-// How much of the pixel the lines of a grid cover; they fade where they would merge.
+// Fraction of the pixel that the grid lines cover; lines fade where they would merge.
 float grid(vec2 place) {
   vec2 cells = place / grid_spacing;
   vec2 pixel = max(fwidth(cells), 1e-6);
@@ -32,7 +32,7 @@ void main() {
   vec3 ray = normalize(far_point.xyz / far_point.w - eye);
   float descent = -dot(n, ray);
   float above = dot(n, eye) - ground.w;
-  // Derivatives need a value in every pixel, so rays that never meet the ground are sent far away and discarded below.
+  // Derivatives need a value in every pixel, so rays that miss the ground get a far point and are discarded below.
   vec3 p = eye + ray * (above / max(descent, 1e-5));
 
   vec3 side = normalize(abs(n.x) < 0.9 ? cross(n, vec3(1, 0, 0)) : cross(n, vec3(0, 1, 0)));

@@ -4,7 +4,7 @@ uniform mat4 from_clip;  // clip space to the world
 
 out vec4 far_point;  // on the far plane, homogeneous [m]
 
-// One triangle that covers the picture.
+// Draws one triangle that covers the picture.
 void main() {
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
   gl_Position = vec4(corner, 0.0, 1.0);

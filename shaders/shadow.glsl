@@ -1,10 +1,10 @@
-// What cloth and spheres take of the key light. Needs lighting.glsl.
+// Shadows of cloth and spheres in the key light. Needs lighting.glsl.
 
 #include "spheres.glsl"
 
 #ifdef SHADOWS
-// How much of the key light the spheres leave, without the one at whose surface the point is. The light is not a point,
-// so edges get softer with their distance.
+// Returns the fraction of the key light that the spheres leave, without the sphere `own` of the point itself. The light
+// has an extent, so edges soften with distance.
 float past_spheres(vec3 p, vec4 own) {
   float light = 1.0;
 #if SPHERES > 0
@@ -22,17 +22,17 @@ float past_spheres(vec3 p, vec4 own) {
 }
 
 #ifndef GROUND
-uniform sampler2D shadow_map;  // how far the cloth reaches towards the light [m]
-uniform vec4 shadow_u, shadow_v, shadow_depth;  // column, row, whole in the middles of texels, and depth of a point (x, 1)
-uniform float shadow_lift;    // of a point above its surface, in light that falls straight on it [m]
-uniform float shadow_lowest;  // depth below which nothing becomes darker
-uniform vec4 shadow_texel;  // its width in texture coordinates, twice, and in metres; what hides all light, inverse [1/m]
+uniform sampler2D shadow_map;  // depth of the cloth towards the light [m]
+uniform vec4 shadow_u, shadow_v, shadow_depth;  // column, row (whole in the middles of texels) and depth of a point (x, 1)
+uniform float shadow_lift;    // offset of a point above its surface, in perpendicular light [m]
+uniform float shadow_lowest;  // depth below which shadows stay equally dark
+uniform vec4 shadow_texel;  // width in texture coordinates (x, y) and metres; inverse of the height that hides all light [1/m]
 
-// How much of the key light the cloth leaves to a point of a surface with normal n. The point's own surface is taken for a
-// plane, which each of the 36 texels around it is compared with; what is above that plane hides light, by a tent filter
-// three texels wide on each side. Nothing jumps here: were depths only compared, the last bit of a number, in which
-// processors differ, could turn a pixel from light to dark. In slanting light what hides it has to be farther above the
-// plane. One gather takes llvmpipe half as long as three filtered samples.
+// Returns the fraction of the key light that the cloth leaves to a point of a surface with normal n. The surface is
+// approximated by a plane and compared with 36 texels around the point; heights above the plane hide light, weighted by
+// a tent filter with a radius of three texels. The result is continuous: hard comparisons of depths would let the last
+// bit, which differs between processors, flip a pixel. In slanting light the required height grows. One gather takes
+// llvmpipe half as long as three filtered samples.
 float past_cloth(vec3 p, vec3 n) {
   vec2 place = vec2(dot(shadow_u, vec4(p, 1.0)), dot(shadow_v, vec4(p, 1.0)));
   float depth = dot(shadow_depth, vec4(p, 1.0));
@@ -48,7 +48,7 @@ float past_cloth(vec3 p, vec3 n) {
   float hidden = 0.0;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      vec2 first = vec2(2 * column - 2, 2 * row - 2);  // of the four texels, from the point's corner
+      vec2 first = vec2(2 * column - 2, 2 * row - 2);  // of the four texels, relative to the point's corner
       vec2 lower = first - part, upper = lower + 1.0;
       vec4 depths = textureGather(shadow_map, (corner + first + 1.0) * shadow_texel.xy);
       vec4 plane = vec4(lower.x, upper.x, upper.x, lower.x) * slope.x + vec4(upper.y, upper.y, lower.y, lower.y) * slope.y;

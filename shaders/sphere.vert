@@ -8,8 +8,8 @@ layout(location = 0) in vec3 cap;  // 0 in the middle of the visible cap to 1 at
 
 out vec3 world_position;
 
-// The cloth lies on a cushion around the sphere, and dips into it where it is pulled down hard, and between its vertices.
-// There the cloth has to hide the sphere all the same: where the sphere is in depth is taken from one that is smaller.
+// The cloth rests on a contact layer around the sphere, and dips into it between its vertices or when pulled hard. To
+// let the cloth hide the sphere there as well, the sphere's depth is that of a smaller one.
 const float depth_radius = 0.92;
 
 void main() {
@@ -19,12 +19,12 @@ void main() {
   vec3 side = normalize(abs(axis.z) < 0.9 ? cross(vec3(0, 0, 1), axis) : cross(vec3(1, 0, 0), axis));
   vec3 other = cross(axis, side);
 
-  float angle = cap.x * acos(sphere.w / distance);  // the rim is where the view touches the sphere
+  float angle = cap.x * acos(sphere.w / distance);  // the view touches the sphere at the rim
   vec3 normal = cos(angle) * axis + sin(angle) * (cap.y * side + cap.z * other);
   world_position = sphere.xyz + sphere.w * normal;
   gl_Position = view_projection * vec4(world_position, 1.0);
 
-  // The same ray meets the smaller sphere here, or passes it at its nearest point.
+  // Intersects the same ray with the smaller sphere, or takes its nearest point.
   vec3 ray = normalize(world_position - eye);
   float nearest = -distance * dot(ray, axis);
   float missed_by = distance * distance - nearest * nearest;

@@ -1,11 +1,11 @@
-// The spheres, and what they leave of the light from all around.
+// The spheres and their occlusion of ambient light.
 
 #if SPHERES > 0
 uniform vec4 spheres[SPHERES];  // center, radius [m]
 #endif
 
-// The part of the surroundings of a point p with normal n that the spheres leave free: 1 for all of it. For a sphere
-// above the horizon it is exact (Quilez, "sphere ambient occlusion").
+// Returns the fraction of ambient light that the spheres leave to a point p with normal n. It is exact for a sphere
+// above the horizon (Quilez, "sphere ambient occlusion").
 float free_sky(vec3 p, vec3 n) {
   float open = 1.0;
 #if SPHERES > 0

@@ -10,7 +10,7 @@ namespace {
 
 int channel(std::uint32_t color, int axis) { return static_cast<int>(color >> (16 - 8 * axis) & 0xff); }
 
-/// The zeroth and the first moments of colours.
+/// Zeroth and first moments of a set of colours.
 struct Moments {
   double count = 0;
   std::array<double, 3> sum{};
@@ -30,7 +30,7 @@ struct Moments {
     for (int axis = 0; axis < 3; ++axis) rest.sum[axis] -= other.sum[axis];
     return rest;
   }
-  /// By how much the squared error is less around the mean than around zero.
+  /// Returns how much smaller the squared error is around the mean than around zero.
   [[nodiscard]] double explained() const {
     return count > 0 ? (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / count : 0;
   }
@@ -43,25 +43,25 @@ struct Moments {
 
 constexpr int hues = 12;
 
-/// The twelfth of the circle of hues that a colour is in, 1…12, the first one around red; 0: it is nearly grey.
+/// Returns the twelfth of the hue circle of a colour, 1…12, the first centred on red; 0 for a nearly grey colour.
 int hue(std::uint32_t color) {
   constexpr int least_chroma = 24;
   const int r = red(color), g = green(color), b = blue(color);
   const int most = std::max({r, g, b}), chroma = most - std::min({r, g, b});
   if (chroma < least_chroma) return 0;
-  // Of the six sides of the hexagon that hues lie on, and how far along it.
+  // The side of the hue hexagon, of six, and the position along it.
   const int along = most == r ? g - b : most == g ? b - r : r - g;
   const int side = most == r ? 0 : most == g ? 2 : 4;
   const int twelfth = (hues * chroma + 2 * side * chroma + 2 * along + chroma / 2) / chroma;
   return 1 + twelfth % hues;
 }
 
-/// Colours, with the plane along which they are best cut in two.
+/// A set of colours, with the plane that best cuts it in two.
 struct Box {
   std::span<ColorCount> colors;
   Moments moments;
-  int axis = 0, first_above = 0;  // those whose channel is at least this are on the other side of the plane
-  double gain = 0;                // by how much the cut reduces the squared error
+  int axis = 0, first_above = 0;  // colours whose channel reaches this are above the plane
+  double gain = 0;                // reduction of the squared error by the cut
 
   explicit Box(std::span<ColorCount> all) : colors(all) {
     std::array<std::array<Moments, 256>, 3> slices{};
@@ -81,7 +81,7 @@ struct Box {
     }
   }
 
-  /// Cuts off and returns what is above the plane.
+  /// Cuts off and returns the part above the plane.
   Box cut() {
     const auto middle = std::partition(colors.begin(), colors.end(),
                                        [this](const ColorCount& c) { return channel(c.color, axis) < first_above; });
@@ -96,12 +96,11 @@ Box& most_worth(std::span<Box> boxes) {
   return *std::max_element(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.gain < b.gain; });
 }
 
-/// The boxes that hues have for themselves, at most half of all, so that a red ball that few frames show is not left
-/// the colours of a cloth that all of them show. The last box holds the rest: greys, and hues of no more than pixels on
-/// edges.
+/// Returns boxes reserved for hues, at most half of all, so that a red ball in few frames keeps colours of its own
+/// beside a cloth in all frames. The last box holds the rest: greys, and hues only of pixels on edges.
 std::vector<Box> boxes_of_hues(std::span<ColorCount> colors, std::size_t most) {
   constexpr double least_share = 1e-4;
-  constexpr double unseen = 2;  // less of the squared error of a pixel, and a cut is not worth its entry
+  constexpr double unseen = 2;  // least gain per pixel in squared error that is worth an entry
   std::array<double, 1 + hues> pixels{};
   double total = 0;
   for (const ColorCount& c : colors) {

@@ -8,11 +8,11 @@
 
 namespace drape::gif {
 
-/// Few colours that stand for many: at most `most` of them, and exactly those given if they are no more than that.
+/// Chooses at most `most` colours that represent the given ones; few given colours are returned unchanged.
 ///
 /// The colours are cut into boxes (Heckbert, "Color image quantization for frame buffer display", 1982), each time
-/// there where it takes most from the squared error of all pixels (Wu, "Color quantization by dynamic programming and
-/// principal analysis", 1992), and each box becomes its mean.
+/// where the squared error of all pixels falls most (Wu, "Color quantization by dynamic programming and principal
+/// analysis", 1992). Each box becomes its mean.
 std::vector<std::uint32_t> representative_colors(std::vector<ColorCount> colors, std::size_t most);
 
 }  // namespace drape::gif

@@ -3,7 +3,7 @@
 namespace drape::gif {
 
 void ColorHistogram::add(const Image& image) {
-  // By runs: much of a picture is one background.
+  // Counts by runs: much of a picture is uniform background.
   const std::uint8_t* pixel = image.pixels.data();
   const std::uint8_t* end = pixel + image.pixels.size();
   while (pixel != end) {

@@ -8,18 +8,18 @@
 
 namespace drape::gif {
 
-/// A colour and how many pixels have it.
+/// A colour and its number of pixels.
 struct ColorCount {
   std::uint32_t color = 0;  ///< 0xRRGGBB
   std::uint64_t count = 0;
 };
 
-/// Counts every colour of a film by itself.
+/// Counts every colour of a film separately.
 class ColorHistogram {
  public:
   void add(const Image& image);
 
-  /// Each colour that there is, once, in an order that depends on nothing else.
+  /// Returns each colour once, in an order that depends only on the set of colours.
   [[nodiscard]] std::vector<ColorCount> colors() const;
 
  private:

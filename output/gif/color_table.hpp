@@ -7,7 +7,7 @@
 
 namespace drape::gif {
 
-/// 0xRRGGBB of a pixel's three bytes.
+/// Returns 0xRRGGBB of a pixel's three bytes.
 inline std::uint32_t rgb_number(const std::uint8_t* pixel) {
   return static_cast<std::uint32_t>(pixel[0] << 16 | pixel[1] << 8 | pixel[2]);
 }
@@ -16,8 +16,8 @@ inline int red(std::uint32_t color) { return static_cast<int>(color >> 16 & 0xff
 inline int green(std::uint32_t color) { return static_cast<int>(color >> 8 & 0xff); }
 inline int blue(std::uint32_t color) { return static_cast<int>(color & 0xff); }
 
-/// A value for each of the 2²⁴ colours 0xRRGGBB, T{} at first. Memory is taken for cubes of 16×16×16 colours once one
-/// of theirs is asked for: a film's colours lie in few of them, and those of neighbouring pixels mostly in the same.
+/// A value for each of the 2²⁴ colours 0xRRGGBB, initially T{}. Memory is allocated per used cube of 16×16×16 colours:
+/// a film's colours lie in few cubes, and neighbouring pixels mostly in the same.
 template <class T>
 class ColorTable {
  public:
@@ -27,7 +27,7 @@ class ColorTable {
     return (*cube)[interleaved(color)];
   }
 
-  /// Calls f(color, value) for every colour of the cubes that there are, always in the same order.
+  /// Calls f(color, value) for every colour of the allocated cubes, always in the same order.
   template <class F>
   void for_each(F f) const {
     for (std::uint32_t c = 0; c < cubes_.size(); ++c) {
@@ -40,9 +40,9 @@ class ColorTable {
   static constexpr std::size_t side = 16;
   using Cube = std::array<T, side * side * side>;
 
-  /// 0xRGB of 0x-R-G-B.
+  /// Converts 0x-R-G-B to 0xRGB.
   static std::uint32_t interleaved(std::uint32_t c) { return (c >> 8 & 0xf00) | (c >> 4 & 0xf0) | (c & 0xf); }
-  /// Its inverse.
+  /// Inverts interleaved().
   static std::uint32_t spread(std::uint32_t c) { return (c & 0xf00) << 8 | (c & 0xf0) << 4 | (c & 0xf); }
 
   std::array<std::unique_ptr<Cube>, side * side * side> cubes_;

@@ -7,13 +7,13 @@
 namespace drape::gif {
 namespace {
 
-/// Squared, weighted by how much of the brightness each channel makes. A difference of d in all channels gives 9·d².
+/// Returns the squared error, channels weighted by brightness. A difference of d in all channels gives 9·d².
 int color_error(std::uint32_t a, std::uint32_t b) {
   const int r = red(a) - red(b), g = green(a) - green(b), bl = blue(a) - blue(b);
   return 2 * r * r + 4 * g * g + 3 * bl * bl;
 }
 
-/// What the dither may add to the error of a pixel's own colour shows nowhere.
+/// Error of the dither that stays invisible.
 constexpr int unseen_error = 9 * 4 * 4;
 
 }  // namespace
@@ -29,7 +29,7 @@ bool Compactor::is_exact(std::uint32_t color) const {
   return std::binary_search(palette_.exact.begin(), palette_.exact.end(), color);
 }
 
-/// How far off a pixel may be for longer than one frame.
+/// Returns the error that a pixel may have for longer than one frame.
 int Compactor::lasting_error(const IndexedFrame& frame, std::size_t i) const {
   return std::max(color_error(palette_.colors[frame.index[i]], frame.source[i]), unseen_error);
 }
@@ -41,7 +41,7 @@ bool Compactor::may_stay(const IndexedFrame& frame, std::size_t i) const {
 }
 
 int Compactor::most_error(const IndexedFrame& frame, std::size_t i, int tolerance) const {
-  // Where the picture is smooth, all of the tolerance would show as streaks.
+  // Smooth areas get less tolerance: all of it would show as streaks.
   const int allowed = std::min(tolerance, 2 + tolerance / 16 + frame.contrast[i]);
   const int most = 9 * allowed * allowed;
   return late_[i] ? std::min(most, lasting_error(frame, i)) : most;
@@ -59,7 +59,7 @@ Compactor::Pixel Compactor::pixel(const IndexedFrame& frame, std::size_t i, int 
   return p;
 }
 
-/// Finds the rectangle of what changes.
+/// Finds the rectangle of all changes.
 Patch Compactor::changed(const IndexedFrame& frame) const {
   Span rows, columns;
   for (int y = 0; y < height_; ++y) {
@@ -80,7 +80,7 @@ Patch Compactor::changed(const IndexedFrame& frame) const {
   return {columns.begin, rows.begin, columns.end - columns.begin, rows.end - rows.begin, {}};
 }
 
-/// Of showing a symbol in place of a pixel's own; above what is allowed if it cannot be.
+/// Returns the error of a symbol in place of a pixel's own; exceeds the allowed error if it is impossible.
 int Compactor::error(const Pixel& pixel, int symbol) const {
   const int index = symbol == Palette::transparent ? pixel.shown : symbol;
   const int own = pixel.symbol == Palette::transparent ? pixel.shown : pixel.symbol;
@@ -89,7 +89,7 @@ int Compactor::error(const Pixel& pixel, int symbol) const {
   return color_error(palette_.colors[index], pixel.source);
 }
 
-/// Goes on from a match of the first pixels, as far as there are entries for the next ones.
+/// Extends a match of the first pixels as far as the dictionary has entries for the next ones.
 void Compactor::find_longest(std::span<const Pixel> pixels, const Match& match, Match& best) const {
   if (match.length > best.length || (match.length == best.length && match.error < best.error)) best = match;
   if (static_cast<std::size_t>(match.length) == pixels.size()) return;

@@ -11,41 +11,40 @@
 
 namespace drape::gif {
 
-/// What a frame changes of the one before.
+/// The changes of a frame relative to the previous one.
 struct Patch {
-  int x = 0, y = 0, width = 1, height = 1;  ///< the rectangle that it lies in; never empty, as that of a GIF
-  std::string data;                         ///< its pixels, compressed
+  int x = 0, y = 0, width = 1, height = 1;  ///< bounding rectangle; never empty, as GIF requires
+  std::string data;                         ///< compressed pixels
 };
 
-/// Compresses a film's frames as a GIF does. Of each only the rectangle that has changed is kept, and within it the
-/// pixels that have not are transparent. Beyond a tolerance of 0 it changes pixels a little so that they take fewer
-/// bytes.
+/// Compresses a film's frames for GIF. Each frame stores only the rectangle that has changed, in which unchanged pixels
+/// are transparent. With a tolerance above 0 it changes pixels slightly to save bytes.
 ///
-/// LZW looks for the longest sequence of its dictionary that goes on with the next pixels. Where none does with a
-/// pixel's colour, the compactor takes one that goes on with a colour near to it, as gifsicle's --lossy does. How near
-/// depends on the surroundings: nobody sees in a weave what would be a streak on a glossy ball.
+/// LZW searches its dictionary for the longest sequence that matches the next pixels. If none continues with a pixel's
+/// colour, the compactor accepts a similar colour, as gifsicle's --lossy does. The allowed error depends on the
+/// surroundings: it is invisible in a weave where it would show as a streak on a glossy ball.
 ///
-/// Three things it never does: change a pixel where nothing has changed since the frame before, which would flicker;
-/// change one of the palette's exact colours; leave a pixel, for more than one frame, farther from its colour than the
-/// dither may be: cloth that has passed would leave its traces behind.
+/// Three rules always hold. Pixels unchanged since the previous frame stay, because changes would flicker. Exact
+/// colours of the palette stay. No pixel is wrong by more than the dither's error for longer than one frame, because
+/// passing cloth would leave traces.
 class Compactor {
  public:
   Compactor(const Palette& palette, int width, int height);
 
-  /// @param tolerance  how far a colour may be off where there is much contrast: the root of the weighted mean square
-  ///                   of its channels, in steps of 1/255; 0 to change nothing
+  /// @param tolerance  greatest colour error in areas of high contrast: weighted root mean square of the channels, in
+  ///                   steps of 1/255; 0: lossless
   Patch compact(const IndexedFrame& frame, int tolerance);
 
  private:
-  /// What is to be compressed of one pixel.
+  /// Data for compressing one pixel.
   struct Pixel {
-    std::uint8_t symbol;       // what it is if nothing is changed: an index, or the transparent one
-    std::uint8_t shown;        // its index in the frame before; the transparent one in the first frame
-    std::uint16_t most_error;  // that is allowed
+    std::uint8_t symbol;       // lossless symbol: an index, or the transparent one
+    std::uint8_t shown;        // index in the previous frame; the transparent one in the first frame
+    std::uint16_t most_error;  // greatest allowed error
     std::uint32_t source;
   };
 
-  /// A way through the dictionary that pixels can take.
+  /// A path through the dictionary that matches pixels.
   struct Match {
     int entry = 0;
     int length = 0;
@@ -64,9 +63,9 @@ class Compactor {
 
   Palette palette_;
   int height_;
-  std::vector<std::uint8_t> shown_;  // indices of the frame before
-  std::vector<Span> touched_;        // by row, in the frame before
-  std::vector<std::uint8_t> late_;   // 1: farther off in the frame before than it may stay
+  std::vector<std::uint8_t> shown_;  // indices of the previous frame
+  std::vector<Span> touched_;        // per row, in the previous frame
+  std::vector<std::uint8_t> late_;   // 1: the error in the previous frame must not last
   LzwDictionary dictionary_;
   std::vector<Pixel> pixels_;  // of the patch
 };

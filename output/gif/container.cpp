@@ -15,7 +15,7 @@ void put(std::string& bytes, std::initializer_list<int> values) {
   for (const int value : values) bytes.push_back(static_cast<char>(value));
 }
 
-/// Two bytes, the lower one first.
+/// Writes 16-bit numbers, little-endian.
 void put_words(std::string& bytes, std::initializer_list<int> values) {
   for (const int value : values) put(bytes, {value & 0xff, value >> 8});
 }
@@ -33,7 +33,7 @@ Container::Container(PartialFile& file, int width, int height, const Palette& pa
   put(bytes, {extension, application, 11});
   bytes += "NETSCAPE2.0";
   put(bytes, {3, 1});
-  put_words(bytes, {0});  // times: without end
+  put_words(bytes, {0});  // repeats for ever
   put(bytes, {0});
   file_.write(bytes);
 }
@@ -41,11 +41,11 @@ Container::Container(PartialFile& file, int width, int height, const Palette& pa
 std::size_t Container::add(const Patch& patch, std::int64_t duration) {
   constexpr std::int64_t longest = 0xffff;
   std::string bytes;
-  put(bytes, {extension, graphic_control, 4, 1 << 2 | 1});  // stays when the next frame comes; has a transparent colour
+  put(bytes, {extension, graphic_control, 4, 1 << 2 | 1});  // keeps the previous picture; has a transparent colour
   put_words(bytes, {static_cast<int>(std::min(duration, longest))});
   put(bytes, {Palette::transparent, 0, image});
   put_words(bytes, {patch.x, patch.y, patch.width, patch.height});
-  put(bytes, {0});  // no colours of its own
+  put(bytes, {0});  // no local colour table
   bytes += patch.data;
   file_.write(bytes);
   return bytes.size();

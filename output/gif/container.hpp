@@ -9,15 +9,15 @@
 namespace drape::gif {
 
 /// Writes the blocks of an animated GIF that repeats for ever (Graphics Interchange Format, version 89a, CompuServe
-/// 1990): one table of colours for all frames, each of which is laid over the one before.
+/// 1990), with one colour table for all frames, each of which is drawn over the previous one.
 class Container {
  public:
-  /// @param file  has to outlive it
+  /// @param file  must outlive this object
   /// @throws OutputError
   Container(PartialFile& file, int width, int height, const Palette& palette);
 
-  /// @param duration  of the frame [1/100 s]
-  /// @returns how many bytes it took
+  /// Appends a frame. @param duration  of the frame [1/100 s]
+  /// @returns its size [bytes]
   std::size_t add(const Patch& patch, std::int64_t duration);
 
   /// Ends the file.

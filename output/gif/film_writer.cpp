@@ -11,7 +11,7 @@ FilmWriter::FilmWriter(PartialFile& file, int width, int height, const Palette& 
       bytes_per_frame_(0.14 * width * height) {}
 
 int FilmWriter::tolerance() const {
-  // In proportion to the debt, so that it settles where a frame takes what it may. Beyond the largest, edges fray.
+  // Proportional to the debt, so that it settles at the allowed size. A larger tolerance would fray edges.
   constexpr double largest = 32, frames_of_debt = 8;
   return static_cast<int>(std::clamp(largest * debt_ / (frames_of_debt * bytes_per_frame_), 0.0, largest));
 }

@@ -13,15 +13,15 @@ namespace drape::gif {
 
 /// Writes the frames of a film to a GIF.
 ///
-/// A film may take 0.14 bytes per pixel and frame, which is 5.6 MB for 209 frames of 480×400. The more it is beyond
-/// that, the more freedom the Compactor gets; a film that needs less is not touched.
+/// The target is 0.14 bytes per pixel and frame: 5.6 MB for 209 frames of 480×400. The further a film exceeds it, the
+/// more tolerance the Compactor gets; a smaller film stays lossless.
 class FilmWriter {
  public:
-  /// @param file  has to outlive it
+  /// @param file  must outlive this object
   /// @throws OutputError
   FilmWriter(PartialFile& file, int width, int height, const Palette& palette);
 
-  /// @param duration  how long it is shown [1/100 s]
+  /// @param duration  time on screen [1/100 s]
   void add(const Image& image, std::int64_t duration);
 
   /// Completes the file.
@@ -33,8 +33,8 @@ class FilmWriter {
   OrderedDither dither_;
   Compactor compactor_;
   Container container_;
-  double bytes_per_frame_;  // that are allowed
-  double debt_ = 0;         // bytes that the frames up to now have taken beyond that; negative: saved
+  double bytes_per_frame_;  // target
+  double debt_ = 0;         // bytes of the frames so far above the target; negative: saved
 };
 
 }  // namespace drape::gif

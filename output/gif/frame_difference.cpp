@@ -6,12 +6,12 @@
 namespace drape::gif {
 namespace {
 
-/// How long the next two stretches are [bytes].
+/// Lengths of the next unchanged and replaced stretches [bytes].
 struct Lengths {
   std::uint32_t kept = 0, replaced = 0;
 };
 
-using Word = std::uint64_t;  // bytes that are compared at once
+using Word = std::uint64_t;  // bytes compared at once
 
 Word word(const std::uint8_t* bytes) {
   Word value;
@@ -19,7 +19,7 @@ Word word(const std::uint8_t* bytes) {
   return value;
 }
 
-/// The first place from `begin` on where the frames are the same for longer than naming it takes.
+/// Returns the first position from `begin` where the equal stretch is longer than its description.
 std::size_t next_stay(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, std::size_t begin) {
   std::size_t i = begin;
   for (; i + 2 * sizeof(Word) <= a.size(); i += sizeof(Word)) {

@@ -7,21 +7,20 @@
 
 namespace drape::gif {
 
-/// What has to be known to make a frame of a film out of the one before: stretches of bytes that stay, by their length,
-/// and in turns with them the bytes that take the place of others.
+/// Encodes a frame of a film relative to the previous one: lengths of unchanged stretches of bytes, alternating with
+/// the bytes that replace others.
 ///
-/// Run lengths because of speed: most of a film's frame is as it was, and there this goes over memory as fast as it can
-/// be read; what has moved is new in nearly every byte, and to compress it takes more time than to write it to the
-/// disk.
-/// @param packed  overwritten
+/// Run lengths are fast. Most of a frame is unchanged and is passed at the speed of memory. Moved parts differ in
+/// nearly every byte; compressing them would take longer than writing them to disk.
+/// @param packed  result; overwritten
 void pack_difference(std::span<const std::uint8_t> before, std::span<const std::uint8_t> now,
                      std::vector<std::uint8_t>& packed);
 
-/// Makes the next frame out of the one before.
-/// @returns whether the difference is one of frames of this size; if not, the frame may hold anything
+/// Computes the next frame from the previous one.
+/// @returns true if the difference belongs to frames of this size; otherwise the frame's content is undefined
 bool apply_difference(std::span<const std::uint8_t> packed, std::span<std::uint8_t> frame);
 
-/// The first place from `begin` on where bytes differ; their number if there is none.
+/// Returns the first position from `begin` where bytes differ; their number if there is none.
 std::size_t next_difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, std::size_t begin);
 
 }  // namespace drape::gif

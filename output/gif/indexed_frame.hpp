@@ -6,7 +6,7 @@
 
 namespace drape::gif {
 
-/// Pixels of a row from `begin` to before `end`; empty where these are not in order.
+/// Pixels [begin, end) of a row; empty if begin ≥ end.
 struct Span {
   int begin = 1 << 30, end = 0;
 
@@ -14,15 +14,15 @@ struct Span {
   void include(const Span& other) { begin = std::min(begin, other.begin), end = std::max(end, other.end); }
 };
 
-/// A frame in a palette's colours, and what has to be known of its pixels to change them unseen. Planes of bytes, row
+/// A frame in a palette's colours, and the properties of its pixels that bound invisible changes. Planes of bytes, row
 /// by row from the top.
 struct IndexedFrame {
   int width = 0, height = 0;
-  std::vector<std::uint32_t> source;   ///< what is to be shown: 0xRRGGBB
-  std::vector<std::uint8_t> index;     ///< the palette's colour for it, with dither
-  std::vector<std::uint8_t> contrast;  ///< the largest step in brightness (0…255) to the four neighbours
-  std::vector<std::uint8_t> moved;     ///< 1: the source is another than in the frame before
-  std::vector<Span> touched;           ///< of each row: outside of it, all is as it was in the frame before
+  std::vector<std::uint32_t> source;   ///< target colour, 0xRRGGBB
+  std::vector<std::uint8_t> index;     ///< palette index, with dither
+  std::vector<std::uint8_t> contrast;  ///< largest step in brightness (0…255) to the four neighbours
+  std::vector<std::uint8_t> moved;     ///< 1: the source differs from the previous frame
+  std::vector<Span> touched;           ///< per row: all pixels outside equal the previous frame
 
   [[nodiscard]] std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);

@@ -6,9 +6,8 @@
 
 namespace drape::gif {
 
-/// The dictionary that the compression of a GIF builds up (Welch, "A technique for high-performance data compression",
-/// 1984): the entries 0…255 are the symbols, each further one extends an entry by a symbol. The entries with which one
-/// goes on are linked as children of it.
+/// The LZW dictionary of a GIF (Welch, "A technique for high-performance data compression", 1984). Entries 0…255 are
+/// the symbols; each further entry extends another by a symbol and is linked as its child.
 class LzwDictionary {
  public:
   static constexpr int clear_code = 256, end_code = 257;
@@ -16,9 +15,9 @@ class LzwDictionary {
 
   LzwDictionary() { clear(); }
 
-  /// Forgets all but the symbols.
+  /// Removes all entries but the symbols.
   void clear();
-  /// To be asked before extend().
+  /// Must be false before extend().
   [[nodiscard]] bool is_full() const { return size_ == capacity; }
   void extend(int entry, int symbol);
 
@@ -29,21 +28,21 @@ class LzwDictionary {
   [[nodiscard]] int symbol(int entry) const { return symbol_[entry]; }
 
  private:
-  static constexpr int capacity = 4095;  // one less than there are codes: some decoders count ahead
+  static constexpr int capacity = 4095;  // one less than the number of codes: some decoders count ahead
   std::array<std::int16_t, capacity> first_child_, next_sibling_, parent_;
   std::array<std::uint8_t, capacity> symbol_;
   int size_ = 0;
 };
 
-/// The codes of a picture as a GIF stores them: of 9 to 12 bits, as many as the dictionary's size calls for, the lowest
-/// bit first, in blocks of up to 255 bytes that begin with their length.
+/// Codes of a picture in GIF's format: 9 to 12 bits, depending on the dictionary's size, the lowest bit first, in
+/// blocks of up to 255 bytes that begin with their length.
 class LzwCodes {
  public:
   LzwCodes();
 
-  /// @param size  of the dictionary before it is extended because of this code
+  /// @param size  size of the dictionary before this code extends it
   void put(int code, int size);
-  /// Tells the decoder to forget all but the symbols.
+  /// Makes the decoder remove all entries but the symbols.
   void put_clear();
   /// Ends the picture. @returns its bytes, from the code size to the empty block
   std::string finish();
@@ -53,7 +52,7 @@ class LzwCodes {
   void put_byte();
 
   std::string bytes_;
-  std::size_t block_ = 0;  // where the present block's length is
+  std::size_t block_ = 0;  // position of the current block's length
   std::uint32_t bits_ = 0;
   int bit_count_ = 0, width_;
 };

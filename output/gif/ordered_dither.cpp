@@ -10,23 +10,23 @@
 namespace drape::gif {
 namespace {
 
-/// What is coarser hides bands by itself.
+/// Contrast up to which an area is dithered; coarser areas hide bands themselves.
 constexpr int most_smooth_contrast = 6;
 
-/// Bayer's 8×8 matrix: the bits of x^y and y, interleaved from the lowest one up, most significant first.
+/// Returns an entry of Bayer's 8×8 matrix: bits of x^y and y, interleaved from the lowest, most significant first.
 int bayer(int x, int y) {
   int value = 0;
   for (int bit = 0; bit < 3; ++bit) value = value << 2 | ((x ^ y) >> bit & 1) << 1 | (y >> bit & 1);
   return value;
 }
-constexpr int bayer_range = 63;  // its values are 0…63
+constexpr int bayer_range = 63;  // largest value; values are 0…63
 
 std::uint32_t shifted(std::uint32_t color, int offset) {
   const auto moved = [offset](int channel) { return static_cast<std::uint32_t>(std::clamp(channel + offset, 0, 255)); };
   return moved(red(color)) << 16 | moved(green(color)) << 8 | moved(blue(color));
 }
 
-/// The pixels from the first to the last that differs between two rows.
+/// Returns the range from the first to the last pixel that differs between two rows.
 Span difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
   const std::size_t first = next_difference(a, b, 0);
   if (first == a.size()) return {};
@@ -49,7 +49,7 @@ OrderedDither::OrderedDither(const Palette& palette, int width, int height) : la
   }
   constexpr int far_from_all = 1024;
   channels_[0][Palette::transparent] = far_from_all;
-  // A pattern as high as the distance to the neighbouring colour: less leaves bands, more makes grain.
+  // The amplitude equals the distance to the neighbouring colour: less leaves bands, more makes grain.
   for (std::size_t i = 0; i < amplitude_.size(); ++i) {
     constexpr double least = 2, most = 8;
     int squared = std::numeric_limits<int>::max();
@@ -86,7 +86,7 @@ int OrderedDither::squared_distance(int index, std::uint32_t color) const {
 const OrderedDither::Nearest& OrderedDither::nearest(std::uint32_t color) {
   Nearest& found = nearest_[color];
   if (found.index != Palette::transparent) return found;
-  std::array<int, 256> ranked;  // the squared distance, and below it the index
+  std::array<int, 256> ranked;  // squared distance in the upper bits, index in the lowest eight
   for (int i = 0; i < 256; ++i) {
     ranked[i] = squared_distance(i, color) << 8 | i;
   }
@@ -96,7 +96,7 @@ const OrderedDither::Nearest& OrderedDither::nearest(std::uint32_t color) {
   return found;
 }
 
-/// Notes what has moved.
+/// Stores the image and marks the pixels that have moved.
 void OrderedDither::take_source(const Image& image) {
   const std::size_t row_size = 3 * static_cast<std::size_t>(frame_.width);
   for (int y = 0; y < frame_.height; ++y) {
@@ -150,7 +150,7 @@ void OrderedDither::find_indices(int y) {
 const IndexedFrame& OrderedDither::apply(const Image& image) {
   take_source(image);
   for (int y = 0; y < frame_.height; ++y) {
-    // A pixel's contrast depends on its neighbours.
+    // Contrast depends on the neighbours, so neighbouring pixels are recomputed too.
     const auto row = static_cast<std::size_t>(y);
     Span& span = frame_.touched[row] = moved_[row];
     if (y > 0) span.include(moved_[row - 1]);

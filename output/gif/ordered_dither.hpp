@@ -11,22 +11,21 @@
 
 namespace drape::gif {
 
-/// Takes the frames of a film, one after the other, to a palette's colours: for each pixel the nearest one. Where the
-/// picture is smooth it first adds the 8×8 ordered pattern of Bayer ("An optimum method for two-level rendition of
-/// continuous-tone pictures", 1973) to the pixels whose colour is not in the palette, the higher the farther apart the
-/// palette's colours are there. The pattern stays in place, so what does not move does not flicker, and what has a
-/// colour of the palette keeps it.
+/// Converts a film's frames to a palette's colours: for each pixel the nearest one. In smooth areas it first adds
+/// Bayer's 8×8 ordered pattern ("An optimum method for two-level rendition of continuous-tone pictures", 1973), with an
+/// amplitude that grows with the distance between the palette's colours there. The pattern is fixed, so still areas do
+/// not flicker. Pixels with a colour of the palette keep it.
 class OrderedDither {
  public:
   OrderedDither(const Palette& palette, int width, int height);
 
-  /// @returns the frame, valid until the next one
+  /// @returns the converted frame, valid until the next call
   const IndexedFrame& apply(const Image& image);
 
  private:
   struct Nearest {
-    std::uint8_t index = Palette::transparent;  // not looked for yet
-    bool same = false;                          // it is that very colour
+    std::uint8_t index = Palette::transparent;  // transparent: not yet determined
+    bool same = false;                          // true: exactly this colour
   };
 
   void take_source(const Image& image);
@@ -37,13 +36,13 @@ class OrderedDither {
   [[nodiscard]] std::uint8_t* brightness(int x, int y);
 
   std::array<std::array<int, 256>, 3> channels_;  // of the palette's colours
-  std::array<int, 256> amplitude_;                // of the pattern, around each of them [1/255]
+  std::array<int, 256> amplitude_;                // of the pattern, around each colour [1/255]
   std::array<std::array<int, 8>, 8> pattern_;
   ColorTable<Nearest> nearest_;
   IndexedFrame frame_;
   Image last_;
-  std::vector<Span> moved_;               // of each row, the pixels that may have moved
-  std::vector<std::uint8_t> brightness_;  // with a copy of the first and the last pixel at the ends of each row
+  std::vector<Span> moved_;               // per row, the pixels that may have moved
+  std::vector<std::uint8_t> brightness_;  // each row has copies of its first and last pixel at its ends
   bool first_ = true;
 };
 

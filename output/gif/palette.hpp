@@ -8,11 +8,11 @@
 
 namespace drape::gif {
 
-/// The colours of a GIF, by their index.
+/// The colours of a GIF, by index.
 struct Palette {
-  static constexpr int transparent = 0;     ///< the index that shows what was there before
-  std::array<std::uint32_t, 256> colors{};  ///< 0xRRGGBB; that of the transparent index means nothing
-  std::vector<std::uint32_t> exact;         ///< 0xRRGGBB, ascending: those in `colors` that no pixel may differ from
+  static constexpr int transparent = 0;     ///< index that keeps the previous pixel
+  std::array<std::uint32_t, 256> colors{};  ///< 0xRRGGBB; unused for the transparent index
+  std::vector<std::uint32_t> exact;         ///< 0xRRGGBB, ascending: colours that pixels must keep exactly
 };
 
 /// Chooses the colours of a GIF for a film.

@@ -1,4 +1,4 @@
-# What the module's parts take and return; what they mean is in their docstrings.
+# Types of the module's functions and classes; their docstrings describe them.
 
 from os import PathLike
 from pathlib import Path

@@ -14,12 +14,12 @@
 namespace drape {
 namespace {
 
-/// Refuses to load Mesa where it would end the process: LLVM does not survive that there is no memory.
+/// Refuses to load Mesa without enough address space: LLVM ends the process when memory runs out.
 void require_address_space() {
   static std::atomic<bool> loaded = false;
   if (loaded) return;
-  constexpr double base = 1.1e9, of_thread = 80e6;    // measured [bytes]; most of it is mapped and never used
-  constexpr unsigned most_threads = 32, counted = 2;  // of llvmpipe, and when it was measured
+  constexpr double base = 1.1e9, of_thread = 80e6;    // measured [bytes]; mostly mapped and never used
+  constexpr unsigned most_threads = 32, counted = 2;  // greatest of llvmpipe, and number during the measurement
   const unsigned threads = std::clamp(std::thread::hardware_concurrency(), counted, most_threads);
   const double need = base + of_thread * (threads - counted), left = address_space_left();
   if (left >= need) {
@@ -53,12 +53,12 @@ const char* debian_packages(GlBackend backend) {
 std::unique_ptr<GlContext> make_gl_context(GlBackend backend) {
   require_address_space();
   if (backend == GlBackend::osmesa) return make_osmesa_context();
-  // The system's EGL would load a Mesa that was built with other libraries than those of the archive.
+  // The system's EGL would load a Mesa built with other libraries than the archive's.
   if (!portable_root().empty() && backend == GlBackend::egl)
     throw OutputError("cannot draw: the portable archive has no EGL; it draws with OSMesa (--backend osmesa)");
   if (backend == GlBackend::egl) return make_egl_context();
   if (!portable_root().empty()) return make_osmesa_context();
-  prepare_llvmpipe();  // an environment that is wrong is so for both
+  prepare_llvmpipe();  // a wrong environment affects both backends
   std::string without_osmesa;
   try {
     return make_osmesa_context();

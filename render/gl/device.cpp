@@ -14,13 +14,12 @@
 namespace drape {
 namespace {
 
-/// The devices that nobody uses. They are never destroyed: when the process ends, the libraries that are behind them
-/// may already be gone.
+/// The unused devices. They are never destroyed: when the process ends, their libraries may already be unloaded.
 struct IdleDevices {
   std::mutex mutex;
   std::vector<std::unique_ptr<GlDevice>> devices;
 
-  /// The one of these that was used last; null if there is none.
+  /// Takes the matching device that was used last; null if there is none.
   std::unique_ptr<GlDevice> take(const std::filesystem::path& data_folder, GlBackend backend) {
     const std::scoped_lock lock(mutex);
     const auto found = std::find_if(devices.rbegin(), devices.rend(),
@@ -42,8 +41,8 @@ IdleDevices& idle() {
   return *all;
 }
 
-/// Refuses to draw in a process that was forked from one that has drawn: Mesa's threads are not in it, and whoever
-/// waits for them waits for ever.
+/// Refuses to draw in a process forked from one that has drawn: Mesa's threads do not exist in it, so that waiting for
+/// them would never end.
 void require_own_mesa() {
   static std::atomic<pid_t> owner = 0;
   pid_t none = 0;
@@ -82,14 +81,14 @@ void GiveBack::operator()(GlDevice* device) const noexcept {
   std::unique_ptr<GlDevice> given(device);
   try {
     given->make_current();
-    // Mesa's threads may still be drawing what nobody has read, and a process that ends meanwhile waits for them for
-    // ever: those that have not begun see that it ends, and the others wait for these.
+    // Mesa's threads may still draw pictures that nobody has read. A process that ends meanwhile would wait for them
+    // for ever, so they finish here.
     given->gl().Finish();
     if (given->gl().GetError() != GL_NO_ERROR) return;
     given->release();
     idle().give(std::move(given));
   } catch (const std::exception&) {
-    // The next one makes a device of its own.
+    // The next user makes a new device.
   }
 }
 

@@ -13,16 +13,16 @@
 
 namespace drape {
 
-/// An OpenGL context, and what outlives a renderer in it: programs, which take llvmpipe as long to compile as dozens of
-/// pictures to draw.
+/// An OpenGL context with compiled programs that outlive a renderer: llvmpipe compiles them as slowly as it draws
+/// dozens of pictures.
 class GlDevice {
  public:
-  /// Is current on the calling thread from then on.
+  /// Makes the device and makes it current on the calling thread.
   /// @param data_folder holds shaders/
   /// @throws OutputError as make_gl_context()
   GlDevice(std::filesystem::path data_folder, GlBackend backend);
 
-  /// Whether it was made with these.
+  /// Returns true if the device was made with these arguments.
   [[nodiscard]] bool is_of(const std::filesystem::path& data_folder, GlBackend backend) const {
     return data_folder_ == data_folder && backend_ == backend;
   }
@@ -30,13 +30,13 @@ class GlDevice {
   /// Directs the GL calls of the calling thread to this device.
   /// @throws OutputError if the library refuses
   void make_current() { context_->make_current(); }
-  /// Leaves the device, which must be current, to any other thread.
+  /// Detaches the device, which must be current, so that any thread may use it.
   void release() { context_->release(); }
 
   [[nodiscard]] const GlFunctions& gl() const { return gl_; }
 
-  /// The program of these shaders, see Program. Made when it is first asked for; its uniforms are as its last user has
-  /// left them, so each sets all of them.
+  /// Returns the program of these shaders, see Program; compiled at first use. Its uniforms keep their last values, so
+  /// each user sets all of them.
   const Program& program(const std::string& name, const std::vector<std::string>& defines);
 
  private:
@@ -47,16 +47,15 @@ class GlDevice {
   std::map<std::pair<std::string, std::vector<std::string>>, Program> programs_;
 };
 
-/// Gives a device back for others to borrow, unless something is wrong with it.
+/// Returns a device to the pool, unless it has an error.
 struct GiveBack {
   void operator()(GlDevice* device) const noexcept;
 };
 
 using BorrowedDevice = std::unique_ptr<GlDevice, GiveBack>;
 
-/// A device for one user alone: one that was given back, on whatever thread that was, or else a new one. It is current
-/// on the calling thread from then on, and is given back on the thread that uses it, when nothing is left in it but its
-/// programs.
+/// Borrows a device for exclusive use: the matching one returned last, by any thread, or a new one. It is current on
+/// the calling thread. Return it on the thread that uses it, after everything in it but its programs is destroyed.
 /// @throws OutputError as GlDevice
 BorrowedDevice borrow_device(const std::filesystem::path& data_folder, GlBackend backend);
 

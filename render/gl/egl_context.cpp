@@ -44,8 +44,8 @@ struct Egl {
   }
 };
 
-/// A context that is current without a surface. The display is the process's own and is never terminated: every context
-/// of the process shares it, on whatever thread.
+/// A context that is current without a surface. The display belongs to the process and is never terminated: all
+/// contexts on all threads share it.
 class EglContext final : public GlContext {
  public:
   explicit EglContext(const std::vector<std::string>& library_names) : egl_(library_names) {
@@ -67,14 +67,14 @@ class EglContext final : public GlContext {
   }
 
   void make_current() override {
-    // The API that a thread is bound to is the thread's own.
+    // Each thread has its own bound API.
     if (egl_.bind_api(EGL_OPENGL_API) != EGL_TRUE ||
         egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
       egl_.fail("make its context current");
     }
   }
 
-  // A method that destruction calls cannot be overridden.
+  // final, because the destructor calls it
   void release() final { egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
   [[nodiscard]] Function get_proc_address(const char* name) const override { return egl_.get_proc_address(name); }

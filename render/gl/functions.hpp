@@ -4,7 +4,7 @@
 
 namespace drape {
 
-// The GL functions that the renderer calls, and no others: type, name without "gl". All belong to OpenGL 3.3 core.
+// All GL functions that the renderer calls: type, name without "gl". All belong to OpenGL 3.3 core.
 #define DRAPE_GL_FUNCTIONS(ENTRY)                                                \
   ENTRY(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                   \
   ENTRY(PFNGLATTACHSHADERPROC, AttachShader)                                     \

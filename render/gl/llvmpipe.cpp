@@ -12,7 +12,7 @@
 namespace drape {
 namespace {
 
-/// Of the environment: renderers may be made at the same time, and nothing else orders setting and reading it.
+/// Guards the environment: renderers may be made concurrently, and each reads and sets variables.
 std::mutex& environment() {
   static std::mutex mutex;
   return mutex;

@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// Owns the name of one GL object. Its context must be current when it is made and when it is destroyed.
+/// Owner of one GL object. Its context must be current during construction and destruction.
 template <auto Generate, auto Delete>
 class GlObject {
  public:
@@ -35,7 +35,7 @@ using Texture = GlObject<&GlFunctions::GenTextures, &GlFunctions::DeleteTextures
 using Framebuffer = GlObject<&GlFunctions::GenFramebuffers, &GlFunctions::DeleteFramebuffers>;
 using Renderbuffer = GlObject<&GlFunctions::GenRenderbuffers, &GlFunctions::DeleteRenderbuffers>;
 
-/// A place in the buffer that is bound [bytes], in the form in which OpenGL takes it: as a pointer.
+/// Converts an offset into the bound buffer [bytes] to the pointer that OpenGL expects.
 inline const void* buffer_offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr): so the interface is
 }

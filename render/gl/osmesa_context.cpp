@@ -58,7 +58,7 @@ class OsMesaContext final : public GlContext {
  private:
   OsMesa mesa_;
   OSMesaContext context_ = nullptr;
-  std::array<std::uint8_t, 4> window_{};  // OSMesa insists on one; everything is drawn to framebuffer objects
+  std::array<std::uint8_t, 4> window_{};  // OSMesa requires a window buffer; drawing goes to framebuffer objects
 };
 
 }  // namespace

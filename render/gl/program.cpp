@@ -12,7 +12,7 @@
 namespace drape {
 namespace {
 
-/// The text of a shader with its includes in place, and the files it is made of: file k is GLSL's source string k.
+/// A shader's text with its includes resolved, and its files: file k is GLSL's source string k.
 struct Source {
   std::string text;
   std::vector<std::filesystem::path> files;
@@ -43,7 +43,7 @@ void append_file(Source& source, const std::filesystem::path& file, const std::v
   }
 }
 
-/// The compiler's log, in which "1:" at the start of a line, source string 1, is replaced by that file's name.
+/// Returns the compiler's log with each line's source string number ("1:") replaced by that file's name.
 std::string readable_log(const std::string& log, const std::vector<std::filesystem::path>& files) {
   std::istringstream stream(log);
   std::string result;
@@ -58,7 +58,7 @@ std::string readable_log(const std::string& log, const std::vector<std::filesyst
   return result;
 }
 
-/// Owns a shader until the program is linked.
+/// Owner of a shader until the program is linked.
 class Shader {
  public:
   Shader(const GlFunctions& gl, GLenum type, const std::filesystem::path& file, const std::vector<std::string>& defines)

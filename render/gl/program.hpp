@@ -14,8 +14,8 @@ namespace drape {
 class Program {
  public:
   /// Compiles shaders/NAME.vert and shaders/NAME.frag of the data folder.
-  /// @param defines preprocessor definitions ("SPHERES 1") that both see
-  /// A line `#include "file.glsl"` in a shader stands for that file of the same folder.
+  /// @param defines preprocessor definitions ("SPHERES 1") for both
+  /// A line `#include "file.glsl"` in a shader inserts that file of the same folder.
   /// @throws UsageError if a file cannot be read
   /// @throws OutputError with file, line and the compiler's message if one does not compile
   Program(const GlFunctions& gl, const std::filesystem::path& data_folder, const std::string& name,
@@ -26,7 +26,7 @@ class Program {
 
   void use() const;
 
-  /// Sets a uniform of this program, which must be in use. A uniform that the compiler found to be unused is ignored.
+  /// Sets a uniform of this program, which must be in use. Ignores a uniform that the compiler removed as unused.
   void set(const char* uniform, int value) const;
   void set(const char* uniform, float value) const;
   void set(const char* uniform, const Eigen::Vector3f& value) const;

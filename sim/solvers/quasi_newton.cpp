@@ -43,7 +43,8 @@ void QuasiNewton::start() {
 
 double QuasiNewton::settle_patches(Iterate& point) {
   if (!patches_ || wait_-- > 0) return 0;
-  const double change = patches_->minimise_patches(point, round_ == 0 ? PatchNewton::usual_share : next_share, tolerance());
+  const double change =
+      patches_->minimise_patches(point, round_ == 0 ? PatchNewton::usual_share : next_share, tolerance());
   if (change > 0) history_.clear();
   const bool again = change > 0 && ++round_ < most_rounds;
   wait_ = again ? 0 : between_patches;

@@ -1,4 +1,4 @@
-// What a step takes from the heap: nothing of ours, whatever the method and the effects.
+// Heap allocations of a step: our code makes none, for every method and effect.
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@
 #include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
-// The C library's own functions under the names that everybody calls, Eigen and CHOLMOD included. A sanitizer has its
-// own, so that there is nothing to count.
+// The C library's functions under the names that everyone calls, including Eigen and CHOLMOD. A sanitizer replaces
+// them, so nothing can be counted then.
 #ifdef DRAPE_SANITIZED
 constexpr bool counted = false;
 static std::atomic<long> allocations = 0;
@@ -53,7 +53,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// CHOLMOD's allocations: it takes them through functions that can be replaced.
+/// Counts CHOLMOD's allocations through its replaceable functions.
 long cholmod_allocations = 0;
 void* cholmod_malloc(std::size_t size) { return ++cholmod_allocations, std::malloc(size); }
 void* cholmod_calloc(std::size_t count, std::size_t size) { return ++cholmod_allocations, std::calloc(count, size); }
@@ -71,9 +71,9 @@ class Allocations : public testing::TestWithParam<NamedMethod> {
     if (!counted) GTEST_SKIP() << "a sanitizer has an allocator of its own";
   }
 
-  /// Those of one step, ours and CHOLMOD's, once everything has the size it needs.
+  /// Counts the allocations of one step, ours and CHOLMOD's, once all buffers have their final size.
   static std::pair<long, long> steady_step(Simulation& simulation) {
-    // The step after that is one after which semi-implicit Euler looks for a blow-up.
+    // After the step that follows, semi-implicit Euler checks for a blow-up.
     for (int step = 1; step < 256; ++step) simulation.step();
     const long all = allocations, cholmod = cholmod_allocations;
     simulation.step();
@@ -88,7 +88,7 @@ SimulationSettings falling(Solver solver) {
   return settings;
 }
 
-/// Every effect there is but contact, a sphere that pushes and pins that move included.
+/// Makes settings with every effect except contact, including a pushing sphere and moving pins.
 SimulationSettings eventful(Solver solver) {
   SimulationSettings settings = falling(solver);
   settings.effects = {Gravity{},
@@ -124,7 +124,7 @@ TEST_P(Allocations, AStepWithEveryEffectButContactTakesNothing) {
 }
 
 TEST_P(Allocations, AbsentEffectsTakeNothing) {
-  // Nothing in the system but what gravity installs.
+  // The system contains only what gravity installs.
   const SimulationSettings settings = falling(GetParam());
   const System system = make_system(settings);
   EXPECT_EQ(system.forces.size(), 1U);
@@ -132,7 +132,7 @@ TEST_P(Allocations, AbsentEffectsTakeNothing) {
   EXPECT_EQ(system.energies.capacity() + system.corrections.capacity() + system.filters.capacity() +
                 system.colliders.capacity() + system.pin_motions.capacity() + system.pin_releases.capacity(),
             0U);
-  // And what making one takes is the same for the same scene, however many effects there are to choose from.
+  // Making a system allocates the same for the same scene, independent of the number of registered effects.
   const auto made = [&] {
     const long before = allocations;
     const System another = make_system(settings);

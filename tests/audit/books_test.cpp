@@ -1,4 +1,4 @@
-// Edges beyond a limit, and energy that rises without a cause.
+// Edges beyond a limit, and energy that rises without work.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ TEST(StretchedEdges, AreFoundBeyondTheLimitAlone) {
   EXPECT_TRUE(find_stretched(edges, grid.positions, x, 1.0625).empty());
   EXPECT_EQ(find_stretched(edges, grid.positions, x, 1.0624).size(), edges.size());
   x = grid.positions;
-  x(0, 0) -= 0.1;  // a corner: one side of 0.5 becomes 0.6
+  x(0, 0) -= 0.1;  // a corner: one side grows from 0.5 to 0.6
   const std::vector<StretchedEdge> found = find_stretched(edges, grid.positions, x, 1.19);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].edge, (Edge{0, 1}));

@@ -1,4 +1,4 @@
-// What goes through what at one moment, and which vertices are inside.
+// Intersections at one moment, and vertices inside bodies.
 
 #include "audit/crossings.hpp"
 
@@ -51,8 +51,8 @@ TEST(Crossings, AreNotInAClothThatIsPlacedAnywhere) {
   }
 }
 
-// A pole through the middle of a symmetric cloth goes exactly through a vertex or an edge of it: not through any
-// triangle's inner.
+// A pole through the middle of a symmetric cloth passes exactly through one of its vertices or edges, not through a
+// triangle's interior.
 TEST(Crossings, OfAPoleThroughAVertexOrAnEdgeOfTheClothAreFound) {
   const Mesh grid = make_grid(4, 4);
   const Topology cloth = make_topology(grid.triangles), pole = make_topology({{0, 1, 2}});
@@ -78,7 +78,7 @@ TEST(Crossings, DoNotCountTouching) {
   EXPECT_FALSE(goes_through({Vector3d(-1, 0.2, 0), Vector3d(1, 0.2, 0)}, triangle)) << "in its plane";
 }
 
-/// A box from −1/2 to 1/2 with outward triangles, scaled and moved.
+/// Makes a box from −1/2 to 1/2 with outward triangles, scaled and moved.
 Mesh box(const Eigen::RowVector3d& size, const Eigen::RowVector3d& center) {
   Mesh mesh;
   mesh.positions.resize(8, 3);
@@ -104,7 +104,7 @@ TEST(InsideOfABox, IsFoundWithItsDepth) {
   EXPECT_EQ(found[2].vertex, 4);
 }
 
-/// Both meshes as one.
+/// Joins both meshes.
 Mesh joined(Mesh mesh, const Mesh& other) {
   const auto count = static_cast<int>(mesh.positions.rows());
   mesh.positions.conservativeResize(count + other.positions.rows(), Eigen::NoChange);
@@ -118,8 +118,8 @@ std::size_t count_inside(const Vertices& x, const Mesh& solid) {
   return find_inside(x, {topology, solid.positions}).size();
 }
 
-// Vertices on the lattice of the boxes' own corners, edges and diagonals, which rays along it would meet exactly:
-// halves from −2 to 4 in x and from −1 to 1 in y and z.
+// Vertices on the lattice of the boxes' own corners, edges and diagonals, which axis-parallel rays would hit exactly:
+// multiples of 1/2 from −2 to 4 in x and from −1 to 1 in y and z.
 TEST(InsideOfABox, IsExactOnItsOwnLattice) {
   Vertices x(13 * 5 * 5, 3);
   int v = 0;

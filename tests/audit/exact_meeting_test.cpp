@@ -1,4 +1,4 @@
-// Meetings on a grid of small integers, where most cases are degenerate, beside Sturm's theorem on integer polynomials.
+// Meetings on a grid of small integers, where most cases are degenerate, compared with Sturm's theorem.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 using Vector = std::array<Integers, 3>;
 
-/// A way between two places with integer coordinates, as polynomials in time.
+/// Returns a path between two points with integer coordinates as polynomials in time.
 Vector polynomial(const Way& way) {
   Vector v;
   for (int axis = 0; axis < 3; ++axis) {
@@ -28,7 +28,7 @@ Vector polynomial(const Way& way) {
   return v;
 }
 
-/// to − from
+/// Returns to − from.
 Vector between(const Vector& from, const Vector& to) { return {to[0] - from[0], to[1] - from[1], to[2] - from[2]}; }
 
 Vector cross(const Vector& a, const Vector& b) {
@@ -41,9 +41,8 @@ Vector cross(const Vector& a, const Vector& b) {
 
 Integers dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Looks at each root of the volume for a coordinate of `normal` that is not zero there, and whether all `weights`,
-/// vectors parallel to it, have its sign or are zero. Absent where there is no answer: coplanar at all times, or a
-/// normal of zero.
+/// Tests at each root of the volume, where a coordinate of `normal` is not zero, if all `weights`, vectors parallel to
+/// it, have its sign or are zero. Absent if undecidable: always coplanar, or a normal of zero.
 std::optional<bool> meets(const Integers& volume, const Vector& normal, const std::vector<Vector>& weights) {
   if (volume.empty()) return std::nullopt;
   bool met = false;
@@ -75,7 +74,7 @@ std::optional<bool> vertex_meets(const std::array<Way, 4>& w) {
       {cross(between(a, b), between(a, p)), cross(between(b, c), between(b, p)), cross(between(c, a), between(c, p))});
 }
 
-// A point a + s u = c + r v of two lines: s n = (c − a) × v and r n = (c − a) × u with n = u × v.
+// A common point a + s u = c + r v of two lines: s n = (c − a) × v and r n = (c − a) × u with n = u × v.
 std::optional<bool> edges_meet_exactly(const std::array<Way, 4>& w) {
   const Vector a = polynomial(w[0]), c = polynomial(w[2]), u = between(a, polynomial(w[1])),
                v = between(c, polynomial(w[3])), ac = between(a, c);
@@ -89,7 +88,7 @@ Way random_way(test::Random& random, int size) {
   return {from, {whole(), whole(), whole()}};
 }
 
-/// A map of integers that rounds nothing and has an inverse, so features meet after it exactly where they met before.
+/// An exact, invertible integer map: features meet after it exactly where they met before.
 struct AffineMap {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
@@ -97,9 +96,8 @@ struct AffineMap {
   [[nodiscard]] Way operator()(const Way& way) const { return {matrix * way.from + shift, matrix * way.to + shift}; }
 };
 
-/// Entries of 30 bits: exact areas have some 66 bits and volumes some 100, so doubles round them.
-/// @param upright whether it keeps what lies above each other above each other: an area that is zero throughout stays
-/// so
+/// Makes a map with entries of 30 bits: exact areas have some 66 bits and volumes some 100, so doubles round them.
+/// @param upright keeps vertical alignment, so that an area that is always zero stays zero
 AffineMap large_map(bool upright, test::Random& random) {
   AffineMap map;
   do {
@@ -110,7 +108,7 @@ AffineMap large_map(bool upright, test::Random& random) {
   return map;
 }
 
-/// Compares both kinds of features, as they are and mapped; returns how many cases met by touching alone.
+/// Compares both kinds of features, original and mapped; returns the number of cases that only touch.
 int compare(int size, int cases) {
   test::Random random(static_cast<std::uint64_t>(size));
   int undecided = 0, met = 0, touched = 0;
@@ -143,9 +141,9 @@ TEST(ExactMeeting, OnAGridIsSturms) { compare(9, test::tries(4000)); }
 TEST(ExactRoots, AreThoseOfKnownPolynomials) {
   EXPECT_EQ(roots_in_step({0, -1, 3, -2}).size(), 3U);  // −t (1 − t) (1 − 2t)
   EXPECT_EQ(roots_in_step({3, -16, 16}).size(), 2U);    // 1/4, 3/4
-  EXPECT_EQ(roots_in_step({1, -6, 9}).size(), 1U);      // 1/3 twice
+  EXPECT_EQ(roots_in_step({1, -6, 9}).size(), 1U);      // 1/3, a double root
   EXPECT_EQ(roots_in_step({1, 1, 1}).size(), 0U);
-  const Integers p{-1, 0, 0, 2};  // the root of 1/2
+  const Integers p{-1, 0, 0, 2};  // the cube root of 1/2
   const std::vector<Root> roots = roots_in_step(p);
   ASSERT_EQ(roots.size(), 1U);
   EXPECT_EQ(sign_at({-79, 100}, roots[0], p), 1);  // 0.7937

@@ -19,7 +19,7 @@ Integers trimmed(Integers p) {
   return p;
 }
 
-/// Divided by the common divisor of the coefficients, which keeps signs.
+/// Divides by the common divisor of the coefficients, which keeps signs.
 Integers primitive(Integers p) {
   Integer divisor = 0;
   for (const Integer c : p) divisor = common_divisor(divisor, c);
@@ -60,7 +60,7 @@ Integers common_factor(Integers a, Integers b) {
   return primitive(a);
 }
 
-/// The sign of p(m / 2^halvings).
+/// Returns the sign of p(m / 2^halvings).
 int sign_of(const Integers& p, Integer m, int halvings) {
   Integer value = 0, power = 1;
   for (std::size_t i = p.size(); i-- > 0;) {
@@ -91,7 +91,7 @@ int variations(const std::vector<Integers>& chain, Integer m, int halvings) {
   return count;
 }
 
-/// Roots in (low, low + 1] / 2^halvings.
+/// Counts roots in (low, low + 1] / 2^halvings.
 int count_roots(const std::vector<Integers>& chain, Integer low, int halvings) {
   return variations(chain, low, halvings) - variations(chain, low + 1, halvings);
 }

@@ -15,18 +15,18 @@ Integers operator+(const Integers& a, const Integers& b);
 Integers operator-(const Integers& a, const Integers& b);
 Integers operator*(const Integers& a, const Integers& b);
 
-/// A root of a polynomial: the only one in (low, low + 1) / 2^halvings, or low / 2^halvings itself where `exact`.
+/// A root of a polynomial: the only one in (low, low + 1) / 2^halvings, or low / 2^halvings itself if `exact`.
 struct Root {
   Integer low = 0;
   int halvings = 0;
   bool exact = false;
 };
 
-/// The real roots of a polynomial in [0, 1], each once, by Sturm's theorem.
+/// Returns the distinct real roots of a polynomial in [0, 1], by Sturm's theorem.
 /// @param p not zero, coefficients below some thousands, of degree 3 at most
 std::vector<Root> roots_in_step(const Integers& p);
 
-/// The sign of q at a root of p: exactly 0 where both have it; absent if 2⁻³⁶ does not separate their roots.
+/// Returns the sign of q at a root of p: 0 for a common root; absent if 2⁻³⁶ does not separate their roots.
 std::optional<int> sign_at(const Integers& q, const Root& root, const Integers& p);
 
 }  // namespace drape::audit

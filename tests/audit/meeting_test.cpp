@@ -1,4 +1,4 @@
-// Whether two features meet in a step: known cases, exact borders, and random motions beside sampled roots.
+// Meetings of two features in a step: known cases, exact borders, and random motions compared with sampled roots.
 
 #include "audit/meeting.hpp"
 
@@ -63,7 +63,7 @@ TEST(Meeting, CountsTouching) {
   EXPECT_FALSE(edges_meet({still(0, 0, 0), still(2, 0, 0)}, {still(0, 1e-60, 0), still(2, 1e-60, 0)})) << "parallel";
 }
 
-// Way in a plane: the volume is zero at all times, and the areas alone decide.
+// Motion in one plane: the volume is always zero, and only the areas decide.
 TEST(Meeting, OfFeaturesThatMoveInOnePlane) {
   EXPECT_TRUE(vertex_meets_triangle({{-1, 0.2, 0}, {0.1, 0.2, 0}}, floor_triangle));
   EXPECT_FALSE(vertex_meets_triangle({{-1, 0.2, 0}, {-0.001, 0.2, 0}}, floor_triangle));
@@ -83,13 +83,14 @@ TEST(Meeting, OfTrianglesWithoutAnArea) {
 
 double at(double from, double to, double t) { return (1 - t) * from + t * to; }
 
-// A vertex passes the side of a triangle at a third of the step, exactly: its places are multiples of 2⁻⁴⁰, the
-// crossing's is not.
+// A vertex passes the side of a triangle at exactly a third of the step. Its positions are multiples of 2⁻⁴⁰, but the
+// crossing is not.
 TEST(Meeting, TellsOnePlaceBesideTheBorderFromTheBorder) {
   test::Random random;
   for (int i = 0; i < test::tries(300); ++i) {
     const auto whole = [&] { return std::floor(random.between(-1000, 1000)); };
-    // At t = 1/3 vertex (2 from + to)/3 is m (b − a) + a with m = 1/2 and the triangle still; all integers.
+    // At t = 1/3 the vertex is at (2 from + to)/3 = a + m (b − a) with m = 1/2, and the triangle is at rest; all
+    // integers.
     const Vector3d a(2 * whole(), 2 * whole(), 2 * whole()), b(2 * whole(), 2 * whole(), 2 * whole());
     const Vector3d c(whole(), whole(), whole()), from(whole(), whole(), whole());
     const Vector3d to = 3 * (a + b) / 2 - 2 * from;
@@ -98,7 +99,7 @@ TEST(Meeting, TellsOnePlaceBesideTheBorderFromTheBorder) {
     ASSERT_TRUE(meeting) << i;
     EXPECT_TRUE(meeting->touch);
     EXPECT_NEAR(meeting->time, 1.0 / 3, 1e-9);
-    // Moved away from c by the smallest amount in all its places, it misses; towards c, it passes.
+    // Moved away from c by the smallest amount it misses; moved towards c it passes.
     const Vector3d out = 0x1p-36 * (a + b - 2 * c);
     EXPECT_FALSE(vertex_meets_triangle({from + out, to + out}, triangle)) << i;
     const auto inner = vertex_meets_triangle({from - out, to - out}, triangle);
@@ -107,7 +108,8 @@ TEST(Meeting, TellsOnePlaceBesideTheBorderFromTheBorder) {
   }
 }
 
-/// The smallest distance of a sampled motion's features, over a fine grid of times: an upper bound of the true one.
+/// Returns the smallest sampled distance of two moving features over a fine grid of times: an upper bound of the true
+/// one.
 template <class Distance>
 double least(Distance distance) {
   double smallest = HUGE_VAL;
@@ -136,8 +138,8 @@ Vector3d place(const Way& way, double t) {
   return {at(way.from[0], way.to[0], t), at(way.from[1], way.to[1], t), at(way.from[2], way.to[2], t)};
 }
 
-// Where they meet, the distance at the time that is reported is zero. Where not, sampled distances stay away from zero,
-// but for those that come near: a sample is at most half an interval's way from the nearest point in time.
+// At a meeting, the distance at the reported time is zero. Otherwise sampled distances stay away from zero, except in
+// near misses: a sample is at most half an interval from the closest time.
 TEST(Meeting, OfRandomMotionsAgreesWithSampledDistances) {
   test::Random random;
   int met = 0, tried = 0;
@@ -163,8 +165,8 @@ double sign_product(const Vector3d& a, const Vector3d& b, const Vector3d& c, con
   return (b - a).cross(c - a).dot(d - a);
 }
 
-// Edges pass where an edge changes sides of another an odd number of times: the parity of events is known from the ends
-// alone. All pieces of two tetrahedra: what separates them at the start and joins them at the end has to have met.
+// An edge passes another each time it changes sides, so the parity of meetings follows from start and end alone. For
+// all features of two tetrahedra: separated at the start and overlapping at the end, they must have met.
 TEST(Meeting, OfTetrahedraIsFoundWheneverTheyOverlapAtTheEnd) {
   test::Random random;
   constexpr std::array<std::array<int, 3>, 4> faces{{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};

@@ -1,4 +1,4 @@
-// Whole motions under the exact checks: faults that are put into them by hand are found, and nothing else.
+// Whole motions under the exact checks: defects inserted by hand are found, and nothing else.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ AuditedCloth sheet(const Mesh& grid, const Held& held = {.known = true, .vertice
   return {.rest = grid.positions, .triangles = grid.triangles, .held = held};
 }
 
-/// Where a grid is that falls freely for some steps of 20 ms.
+/// Returns a grid after a free fall of some steps of 20 ms.
 Vertices fallen(const Mesh& grid, int step) {
   Vertices x = grid.positions;
   x.col(2).array() -= 0.5 * 9.81 * std::pow(0.02 * step, 2);
@@ -44,7 +44,7 @@ TEST_F(FallingSheet, WithoutAFaultIsClean) {
 TEST_F(FallingSheet, IsFoundToCrossWhereOneVertexGoesThroughATriangleForOneFrame) {
   for (int step = 0; step < 6; ++step) {
     Vertices x = fallen(grid, step);
-    if (step == 3) {  // the corner is folded over and through the sheet's middle
+    if (step == 3) {  // folds the corner through the sheet's middle
       x.row(0) = x.row(40) + Eigen::RowVector3d(0.06, 0.02, -0.1);
       x.row(1) = x.row(40) + Eigen::RowVector3d(0.05, 0.01, 0.1);
     }
@@ -57,14 +57,14 @@ TEST_F(FallingSheet, IsFoundToCrossWhereOneVertexGoesThroughATriangleForOneFrame
   EXPECT_GE(crossings.worst.count, 1U);
   EXPECT_NE(crossings.worst.text.find("cloth edge 0 1 goes through cloth triangle"), std::string::npos)
       << crossings.worst.text;
-  EXPECT_EQ(audit.findings(Check::ways).states, 2);  // there and back
+  EXPECT_EQ(audit.findings(Check::ways).states, 2);  // into the defect and back
   EXPECT_FALSE(audit.clean());
 }
 
 TEST_F(FallingSheet, IsFoundWhereAnEdgeIsLongerThanTheLimit) {
   for (int step = 0; step < 4; ++step) {
     Vertices x = fallen(grid, step);
-    if (step == 2) x(0, 0) -= 0.2 * 0.25;  // a corner's side of 0.25 becomes 0.3
+    if (step == 2) x(0, 0) -= 0.2 * 0.25;  // a corner's side grows from 0.25 to 0.3
     add(step, x);
   }
   const CheckFindings& stretch = audit.findings(Check::stretch);
@@ -97,7 +97,7 @@ TEST_F(FallingSheet, IsFoundUnderAGroundByItsDepth) {
   EXPECT_EQ(inside.worst.count, 81U);
 }
 
-/// A sheet that falls while one vertex stays where it is from a step on, as do those that are held.
+/// Returns a falling sheet with one vertex that stays in place from a step on, like a held one.
 Vertices fallen_but(const Mesh& grid, int step, int vertex, int from) {
   Vertices x = fallen(grid, step);
   if (step > from) x.row(vertex) = fallen(grid, from).row(vertex);

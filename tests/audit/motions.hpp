@@ -10,14 +10,14 @@
 
 namespace drape::audit {
 
-/// A grid of n×n cells in the xy plane, every vertex moved by up to `amount` in any direction.
+/// Returns a grid of n×n cells in the xy plane, with each vertex moved randomly by up to `amount` per axis.
 inline Vertices shaken_grid(const Mesh& grid, double amount, test::Random& random) {
   Vertices x = grid.positions;
   for (Eigen::Index v = 0; v < x.rows(); ++v) x.row(v) += amount * test::random_point(random).transpose();
   return x;
 }
 
-/// All positions turned about (1, 2, 3) by an angle [rad] and moved.
+/// Rotates all positions about (1, 2, 3) by an angle [rad], then translates them.
 inline Vertices moved(const Vertices& x, double angle, const Eigen::RowVector3d& shift) {
   const Eigen::AngleAxisd turn(angle, Eigen::Vector3d(1, 2, 3).normalized());
   return (x * turn.toRotationMatrix().transpose()).rowwise() + shift;

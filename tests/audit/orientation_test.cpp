@@ -1,4 +1,4 @@
-// Signs beside 128-bit integers, where the volume is zero or as small as it can be.
+// Signs compared with 128-bit integers, for volumes that are zero or minimal.
 
 #include "audit/orientation.hpp"
 
@@ -52,8 +52,8 @@ TEST(Orientation, IsThatOfIntegersOnASmallGrid) {
   for (const int sign : {-1, 0, 1}) EXPECT_GT(seen[sign], test::tries(100));
 }
 
-// Three points of 2³⁶, and a fourth in their plane or one unit beside it: volumes of 2¹¹⁰ would have to be resolved to
-// a unit.
+// Three points of size 2³⁶ and a fourth in their plane or one unit beside it: the sign needs volumes of 2¹¹⁰ exact to a
+// unit.
 TEST(Orientation, IsThatOfIntegersInAPlane) {
   test::Random random;
   std::map<int, int> seen;
@@ -81,7 +81,7 @@ TEST(Orientation, ChangesWithTheLastPlaceOfADouble) {
   EXPECT_EQ(orientation(a, b, c, {0.5, next, 24}) * orientation(a, b, c, {next, 0.5, 24}), -1);
 }
 
-// (a + b)(a − b) and a² − b², of which no double could hold either.
+// (a + b)(a − b) and a² − b², which doubles cannot hold.
 TEST(Expansion, ComputesAsIntegersDo) {
   test::Random random;
   for (int i = 0; i < test::tries(5000); ++i) {

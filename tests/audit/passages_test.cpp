@@ -1,4 +1,4 @@
-// What meets in a step: seeded faults, motions without any, and random ones beside all pairs.
+// Meetings in a step: inserted defects, motions without any, and random motions compared with all pairs.
 
 #include "audit/passages.hpp"
 
@@ -28,7 +28,7 @@ Names names(const std::vector<Passage>& found) {
   return all;
 }
 
-/// All pairs, without any broad phase.
+/// Tests all pairs without a broad phase.
 Names all_pairs(const SurfaceMotion& motion) {
   const auto way = [&](int v) { return Way{motion.from.row(v).transpose(), motion.to.row(v).transpose()}; };
   Names all;
@@ -64,8 +64,8 @@ TEST(Passages, OfRandomMotionsAreThoseOfAllPairs) {
   EXPECT_GT(found, static_cast<std::size_t>(test::tries(1000)));
 }
 
-// What all vertices have in common the broad phase leaves out; far away, places in its frame are rounded by as much as
-// the cloth moves.
+// The broad phase subtracts the common motion of all vertices. Far from the origin, rounding in its frame is as large
+// as the motion.
 TEST(Passages, OfMotionsWithALargeCommonWayAreThoseOfAllPairs) {
   const Mesh grid = make_grid(6, 6);
   const Topology topology = make_topology(grid.triangles);
@@ -82,7 +82,7 @@ TEST(Passages, OfMotionsWithALargeCommonWayAreThoseOfAllPairs) {
   EXPECT_GT(found, 100U);
 }
 
-// Places on a lattice of integers: most pairs that meet touch exactly, and many boxes have a side in common.
+// Positions on an integer lattice: most meeting pairs touch exactly, and many boxes share a side.
 TEST(Passages, OnALatticeAreThoseOfAllPairs) {
   const Mesh grid = make_grid(4, 4);
   const Topology topology = make_topology(grid.triangles);
@@ -105,7 +105,7 @@ TEST(Passages, OfAFlatClothThatIsShakenALittleAreThoseOfAllPairs) {
   std::size_t found = 0;
   for (int i = 0; i < test::tries(20); ++i) {
     Vertices from = shaken_grid(grid, 0.12, random), to = shaken_grid(grid, 0.12, random);
-    if (i % 2 == 0) from.col(2).setZero(), to.col(2).setZero();  // a motion in one plane: all volumes are zero
+    if (i % 2 == 0) from.col(2).setZero(), to.col(2).setZero();  // a planar motion: all volumes are zero
     const SurfaceMotion motion{topology, from, to};
     const Names expected = all_pairs(motion);
     ASSERT_EQ(names(find_passages(motion)), expected);
@@ -114,7 +114,7 @@ TEST(Passages, OfAFlatClothThatIsShakenALittleAreThoseOfAllPairs) {
   EXPECT_GT(found, static_cast<std::size_t>(test::tries(20)));
 }
 
-// The crossings at the end of a step that begins without any come from somewhere.
+// A step without crossings at its start explains each crossing at its end by a passage.
 TEST(Passages, ExplainEveryCrossingAtTheEnd) {
   const Mesh grid = make_grid(8, 8);
   const Topology topology = make_topology(grid.triangles);
@@ -129,8 +129,7 @@ TEST(Passages, ExplainEveryCrossingAtTheEnd) {
   EXPECT_GT(crossed, 0);
 }
 
-// Linear ways between a mesh and its image under a turn are images of it under affine maps, all regular below half a
-// turn.
+// Linear paths between a mesh and its rotated image are affine images of the mesh, all regular below half a turn.
 TEST(Passages, AreNotInRigidMotions) {
   const Mesh grid = make_grid(8, 8);
   const Topology topology = make_topology(grid.triangles);
@@ -147,7 +146,7 @@ TEST(Passages, AreNotInRigidMotions) {
   }
 }
 
-// A half turn presses a cloth flat on its way.
+// A half turn flattens the cloth on its way.
 TEST(Passages, AreInAHalfTurn) {
   const Mesh grid = make_grid(2, 2);
   const Topology topology = make_topology(grid.triangles);
@@ -191,7 +190,7 @@ TEST(Passages, ShowAVertexThatGoesThroughForOneStep) {
       std::ranges::any_of(crossings, [&](const Crossing& c) { return c.edge[0] == vertex || c.edge[1] == vertex; }));
 }
 
-// Both sheets swap sides while no state has a crossing: only the ways between show it.
+// The sheets swap sides without a crossing at either state: only the paths between show it.
 TEST(Passages, ShowSheetsThatSwapSides) {
   const TwoSheets sheets(0.01);
   Vertices swapped = sheets.mesh.positions;
@@ -225,9 +224,9 @@ TEST(Passages, ShowTrianglesThatFoldThroughTheirNeighbours) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].kind, Kind::vertex_triangle);
   EXPECT_EQ(found[0].vertices, (std::array{3, 0, 1, 2}));
-  from(3, 1) = to(3, 1) = 2;  // further than the neighbour's corner, which goes through it
+  from(3, 1) = to(3, 1) = 2;  // beyond the neighbour's corner, which passes through this triangle
   EXPECT_EQ(names(find_passages({topology, from, to})), (Names{{0, 2, 1, 0, 3}}));
-  from(3, 0) = to(3, 0) = 2;  // neither corner is above the other triangle: edges 1–2 and 0–3
+  from(3, 0) = to(3, 0) = 2;  // neither corner is above the other triangle: edges 1–2 and 0–3 meet
   from(3, 1) = to(3, 1) = 1;
   EXPECT_EQ(names(find_passages({topology, from, to})), (Names{{1, 0, 3, 1, 2}}));
 }

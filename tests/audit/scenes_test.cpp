@@ -1,4 +1,4 @@
-// Whole runs under the exact checker: it sees what passes through, and nothing else.
+// Whole runs under the exact checker: it finds passages, and nothing else.
 
 #include <gtest/gtest.h>
 

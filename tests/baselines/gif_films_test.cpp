@@ -14,14 +14,14 @@
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/decoded_film.hpp"
 
-// The films of the showcase as GIFs, each frame beside its original.
+// The films of the showcase as GIFs, each frame compared with its original.
 
 namespace drape::gif_films {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The picture of every frame, as it was drawn.
+/// Returns every frame's picture as drawn.
 std::vector<Image> originals(const fs::path& folder) {
   std::set<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) files.insert(entry.path());
@@ -36,7 +36,7 @@ std::vector<Image> originals(const fs::path& folder) {
   return film;
 }
 
-/// The 256 colours that all frames of a GIF have in common, three bytes each.
+/// Returns the 256 common colours of a GIF's frames, three bytes each.
 std::vector<std::uint8_t> palette(const fs::path& gif) {
   std::ifstream stream(gif, std::ios::binary);
   std::vector<std::uint8_t> bytes(std::size_t{3} * 256);
@@ -45,7 +45,7 @@ std::vector<std::uint8_t> palette(const fs::path& gif) {
   return bytes;
 }
 
-/// How far apart two colours are: the root of the weighted mean square of their channels, in steps of 1/255.
+/// Computes the distance of two colours: the weighted root mean square of their channels, in steps of 1/255.
 double distance(const std::uint8_t* a, const std::uint8_t* b) {
   const double red = a[0] - b[0], green = a[1] - b[1], blue = a[2] - b[2];
   return std::sqrt((2 * red * red + 4 * green * green + 3 * blue * blue) / 9);
@@ -60,7 +60,7 @@ class Comparison {
 
   [[nodiscard]] bool has_all_frames() const { return film_.size() > 10 && shown_.size() == film_.size(); }
 
-  /// Pixels that show in a frame what they showed in the one before, though in both their original was another colour.
+  /// Counts pixels that keep their colour in both frames although each original has another one.
   [[nodiscard]] int traces() const {
     int count = 0;
     for_each_pixel([&](std::size_t k, int x, int y) {
@@ -70,8 +70,8 @@ class Comparison {
     return count;
   }
 
-  /// Pixels that change where neither they nor their neighbours did, in this frame and the one before, in which what is
-  /// a little off may still be put right.
+  /// Counts pixels that change although neither they nor their neighbours changed in this frame and the previous one,
+  /// in which a small error may still be corrected.
   [[nodiscard]] int flickers() const {
     int count = 0;
     for_each_pixel([&](std::size_t k, int x, int y) {
@@ -90,10 +90,10 @@ class Comparison {
     }
   }
 
-  /// Farther from the original than the colour of the palette that dither may take: the one nearest to what it has made
-  /// of the original.
+  /// Returns true if a pixel is farther from the original than any colour the dither may choose: the palette colour
+  /// nearest to the dithered original.
   [[nodiscard]] bool is_off(std::size_t k, int x, int y) const {
-    constexpr double most_of_dither = 2 * 4;  // there and back
+    constexpr double most_of_dither = 2 * 4;  // in both directions
     const std::uint8_t* original = film_[k].at(x, y);
     const double found = distance(original, shown_[k].at(x, y));
     if (found <= most_of_dither) return false;
@@ -118,7 +118,7 @@ class Comparison {
 
 class GifFilm : public ::testing::TestWithParam<std::string> {
  protected:
-  /// Draws the film of the scene that the test is for.
+  /// Draws the film of the test's scene.
   static void expect_neither_traces_nor_flicker(const std::string& options) {
     const test::SceneFolder folder;
     const test::Finished finished =
@@ -132,7 +132,7 @@ class GifFilm : public ::testing::TestWithParam<std::string> {
   }
 };
 
-/// Names of the scenes of the showcase.
+/// Returns the names of the showcase's scenes.
 std::vector<std::string> showcase() {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(DRAPE_SOURCE_DIR "/scenes/showcase")) {

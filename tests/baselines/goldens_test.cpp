@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The scenes of drape's own that have a golden.
+/// Returns drape's own scenes with a golden.
 std::vector<fs::path> scenes_with_goldens() {
   std::vector<fs::path> files;
   for (const char* folder : {"homework", "showcase"}) {

@@ -17,20 +17,20 @@
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
-// Whether the gate can be trusted: changes of everything that makes a film, as small as a person might make them by
-// mistake, must be caught and called by their name; changes that change nothing must pass.
+// Reliability of the check: changes of every part of a film, as small as plausible mistakes, must be caught and named;
+// changes without effect must pass.
 
 namespace drape {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// What is checked: a scene of the homework in a folder of the test's own, with its golden from this source tree.
+/// The checked scene: one of the homework in the test's own folder, with its golden from this source tree.
 struct Subject {
   fs::path folder;
   std::string file = "5.toml";
   std::vector<std::string> overrides;
-  std::vector<std::function<void(Scene&)>> edits;  // of what was read
+  std::vector<std::function<void(Scene&)>> edits;  // of the loaded scene
 
   [[nodiscard]] fs::path golden() const { return golden_folder(folder / file); }
 };
@@ -38,7 +38,7 @@ struct Subject {
 struct Mutation {
   const char* name;
   std::function<void(Subject&)> apply;
-  MotionVerdict motion;  // the verdict that it must get
+  MotionVerdict motion;  // required verdict
   PictureVerdict picture;
 };
 
@@ -58,7 +58,7 @@ Apply cloth(const std::function<void(Cloth&)>& change) {
   return edit([=](Scene& scene) { change(scene.simulation.cloth); });
 }
 
-/// The same on the scene with a texture.
+/// Applies a change to the scene with a texture.
 Apply textured(const Apply& apply) {
   return [=](Subject& subject) {
     subject.file = "4.toml";
@@ -66,7 +66,7 @@ Apply textured(const Apply& apply) {
   };
 }
 
-/// Replaces text in a file, where it must be found.
+/// Replaces a text in a file, which must contain it.
 void replace(const fs::path& file, const std::string& from, const std::string& to) {
   std::string text = test::content(file);
   const std::size_t at = text.find(from);
@@ -75,7 +75,7 @@ void replace(const fs::path& file, const std::string& from, const std::string& t
   std::ofstream(file, std::ios::binary) << text;
 }
 
-/// A change of a shader.
+/// Makes a change of a shader.
 Apply shader(const char* file, const char* from, const char* to) {
   return [=](Subject& subject) { replace(subject.folder / "data" / "shaders" / file, from, to); };
 }
@@ -99,7 +99,7 @@ Apply golden_picture_of(const std::function<void(cv::Mat&)>& change) {
   };
 }
 
-/// Moves the camera sideways by as much as moves the middle of the picture by some pixels.
+/// Moves the camera sideways so that the middle of the picture moves by some pixels.
 void shift_camera(Scene& scene, double pixels) {
   const Golden golden = read_golden(golden_folder(scene.file));
   const View view = golden.frames.front().view;
@@ -111,7 +111,7 @@ void shift_camera(Scene& scene, double pixels) {
   scene.camera.up = view.up;
 }
 
-/// Turns the camera about the vertical through its target.
+/// Turns the camera about the vertical axis through its target.
 void turn_camera(Scene& scene, double degrees) {
   const View view = read_golden(golden_folder(scene.file)).frames.front().view;
   const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, Eigen::Vector3d::UnitZ());
@@ -130,7 +130,7 @@ constexpr auto exact = PictureVerdict::exact;
 constexpr auto altered = PictureVerdict::changed;
 
 const std::vector<Mutation> mutations{
-    // What one sees, and nothing else.
+    // Changes of appearance only.
     {"LightOnePercentBrighter", shader("lighting.glsl", "const vec3 key_light = ", "const vec3 key_light = 1.01 * "),
      same_bits, altered},
     {"ADotOfFourByFourPixels",
@@ -165,7 +165,7 @@ const std::vector<Mutation> mutations{
     {"AFilmThatRunsOnePercentFaster", set("video.speed=1.01"), same_bits, altered},
     {"NormalsTheOtherWayRound", shader("cloth.vert", "world_normal = normal", "world_normal = -normal"), same_bits,
      altered},
-    // How it moves, and nothing else.
+    // Changes of motion only.
     {"StiffnessATenthOfAPercentHigher", set("cloth.stiffness=180.18"), moved, exact},
     {"AMassATenthOfAPercentHigher", set("cloth.mass=1.001"), moved, exact},
     {"GravityOfTheNextDigit", set("effects.gravity.acceleration=[0, 0, -9.81]"), moved, exact},
@@ -182,7 +182,7 @@ const std::vector<Mutation> mutations{
     {"ABitOfDamping", set("effects.damping.factor=0.999"), moved, exact},
     {"AStartWithAHundredthOfAMillimetrePerSecond", set("cloth.velocity=[0, 0, 1e-5]"), moved, exact},
     {"ASphereOnePerTenThousandStiffer", set("effects.sphere.stiffness=8000.8"), moved, exact},
-    // Both.
+    // Changes of both.
     {"ASphereOneMillimetreLarger", set("effects.sphere.radius=0.401"), moved, altered},
     {"ACoarserMesh", set("cloth.mesh={grid = [19, 19]}"), moved, altered},
 };
@@ -229,7 +229,7 @@ TEST_P(Caught, WithTheRightVerdict) {
   EXPECT_FALSE(result.findings.empty());
 }
 
-/// A change in files that changes nothing.
+/// A change of files without effect.
 struct Harmless {
   const char* name;
   Apply apply;
@@ -237,7 +237,7 @@ struct Harmless {
 
 void PrintTo(const Harmless& harmless, std::ostream* out) { *out << harmless.name; }
 
-/// Writes the golden pictures anew with another compression, and thus other bytes.
+/// Rewrites the golden pictures with another compression, and thus other bytes.
 Apply compressed(int level) {
   return [=](Subject& subject) {
     for (const auto& entry : fs::directory_iterator(subject.golden() / "frames")) {
@@ -249,7 +249,7 @@ Apply compressed(int level) {
   };
 }
 
-/// The scene with its tables in the opposite order.
+/// Reverses the order of the scene's tables.
 void reverse_tables(Subject& subject) {
   const fs::path file = subject.folder / subject.file;
   std::istringstream lines(test::content(file));

@@ -1,6 +1,5 @@
-// Whether a change of a scene can hide: changes of values, effects and moments that are made up at random. Each that
-// moves any vertex further than the tolerance at any step of the film has to be seen by the windows of the golden
-// motion, wherever in the film it acts.
+// Random changes of a scene's values, effects and times. Each that moves any vertex by more than the tolerance at any
+// step must be detected by the windows of the golden motion, wherever it acts in the film.
 
 #include <gtest/gtest.h>
 
@@ -24,11 +23,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A change of what a scene says, and in words what it is.
+/// A random change of a scene, with its description.
 class Change {
  public:
   Change(Scene& scene, std::uint64_t seed) : scene_(scene), random_(seed * 104'729 + 5) {
-    for (int i = 0; i < 10; ++i) random_.number();  // near seeds begin alike
+    for (int i = 0; i < 10; ++i) random_.number();  // generators of nearby seeds begin alike
   }
 
   std::string make() {
@@ -40,7 +39,7 @@ class Change {
   }
 
  private:
-  /// Close to 1, by between a thousandth and a half.
+  /// Returns a factor near 1, off by between a thousandth and a half.
   double factor() { return 1 + std::pow(10, random_.between(-3, -0.3)) * (random_.number() < 0.5 ? -1 : 1); }
   double moment() { return random_.between(0.02, 0.98) * scene_.duration; }
   int below(std::size_t count) { return random_.below(static_cast<int>(count)); }
@@ -113,7 +112,7 @@ class Change {
     return "pin " + std::to_string(pin) + " released at " + std::to_string(when) + " s";
   }
 
-  /// A ball that is near the cloth for a tenth of a second.
+  /// Adds a ball that is near the cloth for a tenth of a second.
   std::string pass_by() {
     const double when = moment();
     const Eigen::Vector3d away(50, 50, 50),
@@ -127,7 +126,7 @@ class Change {
   test::Random random_;
 };
 
-/// Whether two motions are ever further apart than the tolerance.
+/// Returns true if two motions are ever further apart than the tolerance.
 bool moves(const SimulationSettings& before, const SimulationSettings& after, std::int64_t steps, double tolerance) {
   Simulation a(before), b(after);
   const auto apart = [&] {
@@ -142,7 +141,7 @@ bool moves(const SimulationSettings& before, const SimulationSettings& after, st
   return false;
 }
 
-/// What a change does and what is made of it.
+/// Effect of a change, and whether it was detected.
 struct Outcome {
   bool moved = false, seen = false;
   std::string what;
@@ -163,7 +162,7 @@ Outcome try_change(const fs::path& file, std::uint64_t seed) {
       outcome.seen = outcome.seen || window.verdict == MotionVerdict::changed;
     }
   } catch (const Error&) {
-    outcome.moved = outcome.seen = true;  // it is refused, or diverges: that is not missed
+    outcome.moved = outcome.seen = true;  // refused or diverged: counts as detected
   }
   return outcome;
 }
@@ -177,7 +176,7 @@ void expect_all_seen(const std::vector<std::string>& scenes, std::uint64_t first
     moved += outcome.moved ? 1 : 0;
     EXPECT_EQ(outcome.seen, outcome.moved) << outcome.what;
   }
-  EXPECT_GE(2 * moved, count);  // or the test tests nothing
+  EXPECT_GE(2 * moved, count);  // otherwise the test is vacuous
 }
 
 const std::vector<std::string> quick{"homework/1",       "homework/2",           "homework/3",

@@ -10,7 +10,7 @@
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
 
-// The same scene and the same binary give the same bits, whatever else the machine does and is told to do.
+// The same scene and binary give the same bits, independent of the machine's load and settings.
 
 namespace drape {
 namespace {
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 class Reproducibility : public ::testing::Test {
  protected:
-  /// Runs the drape that was built; @ stands for the folder of the homework's scenes.
+  /// Runs the built drape; @ stands for the folder of the homework's scenes.
   [[nodiscard]] test::Finished drape(const std::string& environment, std::string arguments) const {
     const std::string scenes = std::string(DRAPE_SOURCE_DIR) + "/scenes/homework/";
     for (std::size_t at = 0; (at = arguments.find('@', at)) != std::string::npos; at += scenes.size()) {
@@ -28,7 +28,7 @@ class Reproducibility : public ::testing::Test {
     return test::drape(folder_, arguments, environment);
   }
 
-  /// The bytes of every picture of the film's first frames, and of the last positions.
+  /// Returns the bytes of every picture of the film's first frames, and of the last positions.
   [[nodiscard]] std::map<std::string, std::string> film(const std::string& name, const std::string& environment = "",
                                                         const std::string& scene = "@5.toml") const {
     const auto finished = drape(environment, film_arguments(name, scene));
@@ -92,7 +92,7 @@ TEST_F(Reproducibility, AFrameIsTheSameWhereverTheRangeBegins) {
 }
 
 TEST_F(Reproducibility, EveryInstructionSetGivesTheSameMotion) {
-  for (const char* scene : {"1", "2", "4", "5"}) {  // each method, and contact
+  for (const char* scene : {"1", "2", "4", "5"}) {  // all methods, and contact
     std::map<std::string, std::string> motions;
     for (const Kernels* kernels : all_kernels()) {
       if (kernels->supported() == 0) continue;
@@ -115,7 +115,7 @@ TEST_F(Reproducibility, WhatCrashesTheRendererIsRefused) {
       << finished.text;
 }
 
-/// What tells drape or Mesa to compute in another way that must pass for the same.
+/// Settings that make drape or Mesa compute differently with equal results.
 class Environment : public Reproducibility, public ::testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Of, Environment,
                          ::testing::Values("DRAPE_ISA=sse2", "LP_NUM_THREADS=0", "LP_NUM_THREADS=1", "LP_NUM_THREADS=2",

@@ -1,4 +1,4 @@
-// Goldens that another program has recorded: the scene is the same, what drape makes of it is not.
+// Goldens recorded by another program: the scene is the same, but its results differ.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 class AnotherProgram : public test::CheckedScene {
  protected:
-  /// Writes the golden anew with what a change makes of it, and the pictures that it has.
+  /// Rewrites the golden with a change, keeping its pictures.
   template <class Change>
   void record_otherwise(const Change& change) {
     Golden other = read_golden(golden());
@@ -24,7 +24,7 @@ class AnotherProgram : public test::CheckedScene {
   }
 };
 
-// As if the automatic camera had left a wider margin then than the scene says.
+// As if the automatic camera of the time had left a wider margin than the scene requests.
 TEST_F(AnotherProgram, ThatFramedTheMotionOtherwiseIsSeen) {
   const Scene wider = scene({"camera.margin=0.2"});
   bless_scene(wider, wider.check, GlBackend::automatic, {}, progress_);
@@ -39,7 +39,7 @@ TEST_F(AnotherProgram, ThatFramedTheMotionOtherwiseIsSeen) {
   EXPECT_EQ(result.verdict, SceneVerdict::changed);
 }
 
-// The motion has the same bits: only the record of energies would say it.
+// The motion has the same bits: only the recorded energies reveal it.
 TEST_F(AnotherProgram, ThatHadOtherEnergiesIsSeen) {
   bless();
   ASSERT_EQ(check().verdict, SceneVerdict::passed);

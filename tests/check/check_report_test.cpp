@@ -1,4 +1,4 @@
-// What is made of the results of a check.
+// Reports of a check's results.
 
 #include <gtest/gtest.h>
 #include <tinyxml2.h>

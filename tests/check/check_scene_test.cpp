@@ -88,7 +88,7 @@ TEST_F(CheckScene, SaysNothingOfTheFilmToAGoldenThatHasNoneOfItsSettings) {
   EXPECT_EQ(half.film, "");
 }
 
-// No assertion here is about how long something takes: the golden's own time is replaced by one that is far away.
+// No assertion depends on measured time: the golden's own time is replaced by a far larger or smaller one.
 class CheckTime : public CheckScene {
  protected:
   CheckTime() { put(folder_ / "swing.toml", std::string(test::small_swing) + "time = 1.3\n"); }
@@ -192,13 +192,13 @@ TEST_F(CheckScene, UpdatesWhatItIsToldTo) {
   EXPECT_EQ(test::content(golden() / "motion.bin"), first);
 }
 
-/// Two points in a row that the cloth never meets, and where they are.
+/// Returns overrides for a small sphere with keyframes that never meets the cloth.
 std::vector<std::string> bystander(const std::string& keyframes) {
   return {"effects.sphere.radius=0.1", "effects.sphere.keyframes=" + keyframes};
 }
 
 TEST_F(CheckScene, SeesWhatActsForAMomentOnly) {
-  // A pin that is let go, moved, or held longer, at any moment of the film.
+  // A pin that is released, moved, or held longer, at any time of the film.
   const auto with_pins = [](const std::string& release, const std::string& offset) {
     return std::vector<std::string>{"effects.moving_pins.pins=[0]", "effects.moving_pins.release=" + release,
                                     "effects.moving_pins.keyframes=[{ time = 0.5, offset = [0, 0, " + offset + "] }]"};
@@ -231,7 +231,7 @@ TEST_F(CheckScene, SeesABodyMoveThatTouchesNothing) {
 }
 
 TEST_F(CheckScene, EndToEndIsTheMotionThatWasRecorded) {
-  // The windows begin in rounded states, and so does the motion that is run as a whole.
+  // The windows begin in rounded states, and so does the end-to-end motion.
   bless();
   const Golden recorded = read_golden(golden());
   ASSERT_GT(recorded.quanta.position, 0);
@@ -262,7 +262,7 @@ TEST_F(CheckScene, DrawsAFrameAsTheFilmDoes) {
   const auto plan = plan_recording(film, film.check, {}, progress_);
   const auto golden = record_motion(film, film.check, *plan, {}, progress_);
   ASSERT_TRUE(golden.has_value());
-  // Frame 10 of 30 per second is at 1/3 s, two thirds of the way from step 16 to step 17.
+  // Frame 10 at 30 per second is at 1/3 s, two thirds of the way from step 16 to step 17.
   Simulation simulation(film.simulation);
   while (simulation.state().step < 16) simulation.step();
   const Vertices before = simulation.state().x;
@@ -309,7 +309,7 @@ TEST_F(CheckScene, NamesTheStepTheVertexAndTheDistance) {
   EXPECT_NEAR(first.first->distance, 3e-3, 1e-12);
   EXPECT_TRUE(result.findings[0].starts_with("the motion changed at step 0 by 3 mm at vertex 20"))
       << result.findings[0];
-  // The other windows begin in golden states, and the springs are as long as they were.
+  // The other windows begin in golden states, and the springs keep their length.
   EXPECT_EQ(result.windows.windows[1].verdict, MotionVerdict::same_bits);
   EXPECT_EQ(result.windows.picture, PictureVerdict::exact);
   EXPECT_EQ(result.windows.first_bad_frame, 0);
@@ -333,7 +333,7 @@ TEST_F(CheckScene, ComparesSomeFramesIfAsked) {
   const SceneResult result = check(as_written, {.frames = {25}, .update = UpdateMode::none});
   ASSERT_EQ(result.windows.frames.size(), 1u);
   EXPECT_EQ(result.windows.frames[0].frame, 25);
-  EXPECT_EQ(result.windows.windows.size(), 5u);  // all of the motion, whatever the frames
+  EXPECT_EQ(result.windows.windows.size(), 5u);  // the whole motion, whatever the frames
   EXPECT_NE(test::usage_error([&] { check(as_written, {.frames = {3}}); }).find("has no frame 3, only 0, 10, 25"),
             std::string::npos);
 }

@@ -25,7 +25,7 @@ size = [64, 48]
 frames = [0, 10, 25]
 )";
 
-/// A scene of a small cloth that swings for two seconds, in a folder of its own.
+/// A scene of a small cloth that swings for two seconds, in its own folder.
 class CheckedScene : public InScratchFolder {
  protected:
   CheckedScene() { put(folder_ / "swing.toml", small_swing); }

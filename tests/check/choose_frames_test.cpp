@@ -5,7 +5,7 @@
 namespace drape::choose {
 namespace {
 
-/// A film of 200 frames in which nothing happens.
+/// Makes a film of 200 frames without events.
 FilmFacts quiet_film() {
   FilmFacts film;
   film.bodies = {"the sphere", "the ground"};

@@ -12,7 +12,7 @@ namespace {
 
 class ChosenMethod : public CheckedScene {
  protected:
-  /// The scene of CheckedScene with this [integrator] table.
+  /// Writes the scene of CheckedScene with this [integrator] table.
   void write_scene(const std::string& integrator) {
     const std::regex table("\\[integrator\\][^\\[]*");
     put(folder_ / "swing.toml", std::regex_replace(std::string(small_swing), table, integrator));
@@ -34,7 +34,7 @@ TEST_F(ChosenMethod, IsKeptInTheGoldenAndTaken) {
 }
 
 TEST_F(ChosenMethod, IsSaidToDifferFromThatOfTheGoldenWhichIsTaken) {
-  // What a drape recorded that had another choice.
+  // A golden of a drape that chose another method.
   write_scene("[integrator]\nmethod = \"quasi-newton\"\n");
   bless();
   EXPECT_FALSE(read_manifest(content(golden() / "manifest.json")).golden.method.has_value());

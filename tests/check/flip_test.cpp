@@ -26,7 +26,7 @@ Image image_of(const std::function<Pixel(int, int)>& color) {
   return image;
 }
 
-/// Gradients, moiré and a chessboard, one in each channel.
+/// Returns gradients, moiré and a chessboard, one per channel.
 Pixel pattern(int x, int y) { return {(4 * x + 2 * y) % 256, x * y % 256, (x / 8 + y / 8) % 2 * 200 + 20}; }
 
 Pixel brighter(int x, int y) {
@@ -39,14 +39,14 @@ struct Reference {
   const char* name;
   std::function<Pixel(int, int)> test;
   double mean, largest;
-  std::array<double, 5> at;  // the pixels below
+  std::array<double, 5> at;  // errors of the pixels below
 };
 
 constexpr std::array<std::array<int, 2>, 5> places{{{0, 0}, {24, 14}, {19, 12}, {63, 47}, {33, 29}}};
 
 class Flip : public ::testing::TestWithParam<Reference> {};
 
-// The figures are those of the authors' own program (flip_api.py of NVlabs/flip 1.2), in double precision.
+// Reference values of the authors' own program (flip_api.py of NVlabs/flip 1.2), in double precision.
 INSTANTIATE_TEST_SUITE_P(
     Of, Flip,
     ::testing::Values(Reference{"block",

@@ -1,4 +1,4 @@
-// What a golden may replace, and what it must not.
+// Files that a golden may replace, and files that it must not.
 
 #include "check/golden_folder.hpp"
 
@@ -35,7 +35,7 @@ class GoldenInItsPlace : public test::InScratchFolder {
     return message;
   }
 
-  /// Every file and its bytes; of a link, where it leads to; of a folder, nothing.
+  /// Returns every file with its bytes, every link with its target, and every folder.
   [[nodiscard]] std::map<std::string, std::string> everything() const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(folder_)) {

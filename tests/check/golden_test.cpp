@@ -88,7 +88,7 @@ TEST_F(GoldenFolder, OfAnOlderDrapeIsToBeRecordedAnew) {
   EXPECT_EQ(message, (folder() / "manifest.json").string() +
                          ": was recorded by an older drape in format 1; this one reads format 3; restore it, or "
                          "record it again with drape bless");
-  EXPECT_TRUE(has_golden(folder()));  // and bless may replace it
+  EXPECT_TRUE(has_golden(folder()));  // bless may replace it
 }
 
 TEST_F(GoldenFolder, SaysWhichFileIsNone) {

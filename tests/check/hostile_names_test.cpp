@@ -1,4 +1,4 @@
-// Names that mean something to a page, a report or a build server, in all that is made of a check.
+// Names with a special meaning for pages, reports or build servers, in all outputs of a check.
 
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
@@ -15,7 +15,7 @@
 namespace drape {
 namespace {
 
-/// A check of two scenes, of which one failed, and everything that is told of it has the name.
+/// Makes a check of two scenes, one failed, with the name in all of its texts.
 CheckReport report_of(const std::string& name) {
   CheckReport report;
   report.date = "2026-01-31T12:00:00Z";
@@ -70,7 +70,7 @@ TEST_P(HostileName, IsOneCellOfGitHubsSummary) {
   const std::string summary = github_summary(report_of(GetParam())), plain = github_summary(report_of("plain"));
   EXPECT_FALSE(test::has_controls(summary));
   EXPECT_EQ(count(summary, '\n'), count(plain, '\n'));
-  std::string unescaped;  // what means something to Markdown in the table, where no backslash is before it
+  std::string unescaped;  // Markdown's special characters in the table without a backslash before them
   for (std::size_t i = 0; i < summary.rfind("\nTo accept"); ++i) {
     if (summary[i] == '\\') {
       ++i;
@@ -87,7 +87,7 @@ TEST_P(HostileName, IsOneAnnotation) {
   EXPECT_FALSE(test::has_controls(lines));
   EXPECT_EQ(count(lines, '\n'), 1);
   EXPECT_TRUE(lines.starts_with("::error file="));
-  // The properties end at the first "::" after the begin; the name's own colons and commas are written as %3A and %2C.
+  // The properties end at the first "::" after the start; the name's own colons and commas are written as %3A and %2C.
   const std::string properties = lines.substr(8, lines.find("::", 2) - 8);
   EXPECT_EQ(count(properties, ','), 1) << properties;
   EXPECT_EQ(count(properties, '='), 2 + count(GetParam(), '=')) << properties;

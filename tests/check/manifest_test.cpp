@@ -17,7 +17,7 @@ Golden recorded() { return test::sample_golden(2, 100, 20, {3, 8}); }
 
 std::string manifest() { return manifest_text(recorded(), "fedcba9876543210"); }
 
-/// What is wrong with a manifest; empty if nothing is.
+/// Returns the error of a manifest; empty if it is valid.
 std::string manifest_refusal(const std::string& text) {
   try {
     read_manifest(text);
@@ -27,7 +27,7 @@ std::string manifest_refusal(const std::string& text) {
   return {};
 }
 
-/// The same of the manifest of recorded() with another value in a place, "/camera/margin".
+/// Returns the error of recorded()'s manifest with another value at a place such as "/camera/margin".
 std::string manifest_with(const std::string& place, const Json& value) {
   Json json = Json::parse(manifest());
   json.at(Json::json_pointer(place)) = value;
@@ -86,13 +86,13 @@ TEST(Manifest, RefusesValuesThatMakeNoSense) {
   EXPECT_NE(manifest_with("/size", {32, 100000}), "");
   EXPECT_EQ(manifest_with("/size", {32}), "'size': expected 2 numbers");
   EXPECT_EQ(manifest_with("/frames/0/view/position", {0, 0, nullptr}), "'frames[0].view.position': expected a number");
-  EXPECT_NE(manifest_with("/frames/0/view/position", {0, 0, 0}), "");  // where the target is
+  EXPECT_NE(manifest_with("/frames/0/view/position", {0, 0, 0}), "");  // equal to the target
   EXPECT_NE(manifest_with("/frames/0/view/up", {0, 0, 0}), "");
   EXPECT_NE(manifest_with("/frames/0/view/field_of_view", 180), "");
   EXPECT_EQ(manifest_with("/camera/margin", "none"), "'camera.margin': expected a number");
   EXPECT_EQ(manifest_with("/machine", 7), "'machine.' is not a JSON object");
   EXPECT_NE(manifest_with("/frames/0/frame", -1), "");
-  EXPECT_NE(manifest_with("/frames/1/frame", 3), "");  // twice the same
+  EXPECT_NE(manifest_with("/frames/1/frame", 3), "");  // the same frame twice
   EXPECT_NE(manifest_with("/window_steps", 0), "");
   EXPECT_NE(manifest_with("/format", 4), "");
   EXPECT_EQ(manifest_with("/film", nullptr), "'film.' is not a JSON object");

@@ -16,7 +16,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std:
 
 Golden sample() { return test::sample_golden(30, 25, 10, {0, 7, 9}); }
 
-/// What is known of a golden before its motion is read.
+/// Returns a golden as known before its motion is read.
 Golden described(Golden golden) {
   golden.windows.clear();
   for (GoldenFrame& frame : golden.frames) frame.x.resize(0, 3);
@@ -29,7 +29,7 @@ Golden unpacked(std::string_view bytes, const Golden& of) {
   return golden;
 }
 
-/// What is wrong with bytes that unpack_motion() refuses; empty if it does not.
+/// Returns the error of unpack_motion(); empty if it accepts the bytes.
 std::string motion_refusal(std::string_view bytes, const Golden& of) {
   try {
     unpacked(bytes, of);
@@ -67,7 +67,7 @@ TEST(MotionFile, LosesNothing) {
   Golden golden = sample();
   ASSERT_EQ(golden.windows.size(), 4u);  // steps 0 to 10, to 20, to 25, and the end
   golden.windows[0].start.x(3, 1) = -0.0;
-  golden.windows[1].start.x(4, 1) = 1e300;  // so far away that no quantum counts it
+  golden.windows[1].start.x(4, 1) = 1e300;  // too far away to be a multiple of the quantum
   golden.windows[1].steps[3].bodies.resize(4);
   expect_same_motion(unpacked(pack_motion(golden), golden), golden);
   golden.quanta.position = golden.quanta.velocity = 0;  // exact
@@ -87,7 +87,11 @@ TEST(MotionFile, TakesAboutThirtyBitsForWhatIsRounded) {
     window.start.v = rounded(Vertices::Random(441, 3), golden.quanta.velocity);
   }
   const std::size_t rounded_size = pack_motion(golden).size();
+<<<<<<< HEAD
   EXPECT_LT(8 * rounded_size, 36u * 4 * 441 * 3);  // four fields; what is random is predicted worse than not at all
+=======
+  EXPECT_LT(8 * rounded_size, 36u * 4 * 441 * 3);  // four fields; prediction makes random numbers larger
+>>>>>>> w4tmp
   for (GoldenWindow& window : golden.windows) window.start = {Vertices::Random(441, 3), Vertices::Random(441, 3), 0};
   EXPECT_GT(pack_motion(golden).size(), 3 * rounded_size / 2);
 }
@@ -144,7 +148,7 @@ TEST(MotionFile, RefusesEveryDamage) {
     std::string bad = good;
     bad[i] = static_cast<char>(bad[i] ^ 0x10);
     try {
-      // A bit that the compression does not use may flip: then the numbers are the same.
+      // A bit unused by the compression may flip: then the numbers are the same.
       EXPECT_EQ(pack_motion(unpacked(bad, golden)), good) << "byte " << i;
     } catch (const std::invalid_argument&) {
       ++refused;

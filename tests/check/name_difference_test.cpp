@@ -11,7 +11,7 @@ namespace {
 
 constexpr int width = 120, height = 90;
 
-/// Soft waves of two colours on white, moved by a part of a pixel.
+/// Returns soft waves of two colours on white, shifted by a fraction of a pixel.
 Image waves(double dx, double dy, double brightness = 1) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -58,7 +58,7 @@ TEST(NameDifference, NamesAPlace) {
 }
 
 TEST(NameDifference, NamesEdges) {
-  // Stripes with a soft edge, which is another one in every row.
+  // Stripes with a soft edge at a different position in every row.
   const auto stripes = [](bool jagged) {
     Image image(width, height);
     for (int y = 0; y < height; ++y) {

@@ -47,7 +47,7 @@ TEST(PictureVerdict, TakesNoPixelThatDiffersByMoreThanThree) {
 }
 
 TEST(PictureVerdict, TakesNoPixelWithAVisibleFlipError) {
-  // A patch of 6×6 pixels within the limits of channel and number, which a person sees.
+  // A visible patch of 6×6 pixels within the limits of channel and number.
   Image patch = base();
   for (int y = 0; y < 6; ++y) {
     for (int x = 0; x < 6; ++x) patch.at(x, y)[2] = static_cast<std::uint8_t>(patch.at(x, y)[2] - 3);
@@ -85,7 +85,7 @@ TEST(PictureDifference, IsAmplifiedToWhite) {
   EXPECT_EQ(amplification({}), 1);
 }
 
-/// What is wrong with a PNG file; empty if nothing is.
+/// Returns the error of a PNG file; empty if it is valid.
 std::string png_refusal(std::string_view png, const Eigen::Vector2i& size = {width, height}) {
   try {
     const Image image = decode_png(png, size);
@@ -118,7 +118,8 @@ TEST(DecodePng, RefusesDamage) {
   for (std::size_t i = 0; i < good.size(); i += 7) {
     std::string png = good;
     png[i] = static_cast<char>(png[i] ^ 0x10);
-    const std::string problem = png_refusal(png);  // or it is one that does not matter, as in the name of a comment
+    const std::string problem =
+        png_refusal(png);  // may be empty: some bytes do not matter, as in the name of a comment
     EXPECT_TRUE(problem.empty() || problem == "is damaged" || problem == "is not a PNG" || problem.starts_with("has "))
         << problem;
   }

@@ -1,4 +1,4 @@
-// Goldens of strangers, in which every checksum is right and nothing else need be: judged or refused.
+// Untrusted goldens with valid checksums and arbitrary content: judged or refused.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ class TamperedGolden : public test::CheckedScene, public testing::WithParamInter
     motion_ = test::content(golden() / "motion.bin");
   }
 
-  /// Other bits in a number of the motion, or another character in the manifest.
+  /// Changes bits of a number in the motion, or a character in the manifest.
   void tamper(test::Random& random) const {
     std::string manifest = manifest_;
     if (random.below(2) == 0) {
@@ -50,7 +50,7 @@ class TamperedGolden : public test::CheckedScene, public testing::WithParamInter
     try {
       manifest = sealed_manifest(manifest);
     } catch (const std::invalid_argument&) {
-      // It is no JSON any more.
+      // It is no longer JSON.
     }
     put(golden() / "manifest.json", manifest);
   }

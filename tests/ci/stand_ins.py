@@ -123,7 +123,7 @@ class Runner:
             return re.sub(r"\$\{\{(.*?)\}\}", lambda match: value(match[1]), str(text))
 
         for step in action["runs"]["steps"]:
-            # Without a condition a step runs only where every step before it has succeeded.
+            # Without a condition a step runs only if all previous steps have succeeded.
             if not (condition(step["if"].removeprefix("${{").removesuffix("}}").strip()) if "if" in step else code == 0):
                 continue
             if "uses" in step:

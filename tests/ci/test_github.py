@@ -87,7 +87,7 @@ def test_a_token_without_rights_does_not_change_the_verdict(project, tmp_path, a
     refusing = Comments(allowed=False)
     try:
         runner = Runner(project, tmp_path, PULL_REQUEST, refusing)
-        subprocess.run(["rm", "-rf", runner.server / "owner"], check=True)  # nothing can be pushed, either
+        subprocess.run(["rm", "-rf", runner.server / "owner"], check=True)  # pushing fails as well
         code, log, summary = runner.run(archive=str(archive), token="secret")
         assert code == 0, log
         assert "::warning title=drape check::the pull request has no comment" in log

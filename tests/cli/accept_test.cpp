@@ -1,4 +1,4 @@
-// What a failed check has found becomes the golden: all of it, a scene, or a picture, and nothing else.
+// The findings of a failed check become the golden: all of them, one scene or one picture, and nothing else.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::drape;
 
-/// @param look what may follow in the scene's table [look]
+/// @param look additional lines of the scene's table [look]
 std::string scene(const std::string& look, double mass = 1) {
   std::string text = test::swinging_scene;
   text.insert(text.find("stiffness"), "mass = " + std::to_string(mass) + "\n");
@@ -64,7 +64,7 @@ TEST_F(Accept, EverythingPassesAfterwards) {
   EXPECT_EQ(accepted.code, 0) << accepted.text;
   const auto checked = drape(folder_, "check a.toml b.toml --update none");
   EXPECT_EQ(checked.code, 0) << checked.text;
-  // What passes has nothing to accept.
+  // A passed check has nothing to accept.
   expect_refused("accept out/check", "out/check: there is nothing to accept: this check found no scene changed");
 }
 

@@ -15,7 +15,7 @@ using test::drape;
 using test::Finished;
 using test::SceneFolder;
 
-/// A sheet that lies still where nothing pulls, and one whose two layers fall through each other.
+/// A sheet that stays at rest without forces; a test makes a second one whose two layers fall through each other.
 const std::string still = test::least_scene + "duration = 0.1\n[video]\nsize = [64, 48]\n";
 
 TEST(Audit, FindsNothingInASheetThatLiesStill) {
@@ -49,7 +49,7 @@ TEST(Audit, TakesTheStrainLimitOfASceneForThatOfEdges) {
   EXPECT_NE(finished.text.find("stretch of edges           1.051"), std::string::npos) << finished.text;
 }
 
-/// The scenes of the showcase by their names.
+/// Returns the names of the showcase's scenes.
 std::vector<std::string> showcase() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(DRAPE_SOURCE_DIR "/scenes/showcase")) {
@@ -65,7 +65,7 @@ void expect_clean(const std::string& name) {
   EXPECT_EQ(finished.code, 0) << finished.text;
 }
 
-// No edge is beyond the limit, and the cloth, which has no self-collision, does not need any.
+// All edges respect the limit, and the cloth never meets itself, although it has no self-collision.
 TEST(Audit, FindsNothingInTheShowcaseOfTheStrainLimit) { expect_clean("strain_limit"); }
 
 class AuditOfShowcase : public testing::TestWithParam<std::string> {};

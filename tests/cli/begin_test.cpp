@@ -7,7 +7,7 @@
 #include "tests/support/files.hpp"
 #include "tests/support/read_picture.hpp"
 
-// What a new user types: new, lint, --quality, --open, and times in place of frames.
+// The first commands of a new user: new, lint, --quality, --open, and times in place of frames.
 
 namespace drape::begin_cli {
 namespace {
@@ -202,12 +202,12 @@ TEST(CompareTimes, AreThoseOfTheFirstMotion) {
   }
 }
 
-/// Typed at a terminal, from nothing to a film of one's own and a golden of it, in a smaller size than a person's.
+/// Typed at a terminal, from nothing to one's own film and its golden, at a smaller size than usual.
 TEST(FirstMinutes, EndWithAFilmAndAGolden) {
   const SceneFolder folder;
   if (test::run_shell(folder, "test -x /usr/bin/python3").code != 0) GTEST_SKIP() << "no python3";
   const std::string program = fs::path(DRAPE_EXECUTABLE).parent_path();
-  // What is written is as small as it may be.
+  // Makes the generated scene as small as possible.
   folder.write("bin/drape", "#!/bin/sh\nif [ \"$1\" = new ]; then " + program +
                                 "/drape \"$@\"; code=$?; sed -i -e 's/^size = .*/size = [64, 48]/' -e 's/^duration = "
                                 ".*/duration = 0.2/' flag.toml; exit $code; fi\nexec " +

@@ -17,27 +17,27 @@ using test::SceneFolder;
 
 const std::string scene = test::swinging_scene + "[check]\nframes = [0, 10]\nsize = [64, 48]\n";
 
-/// Two scenes, of which the second is no longer as it was blessed.
+/// Writes two scenes, the second changed since it was blessed.
 void write_scenes(const SceneFolder& folder) {
   for (const char* name : {"a.toml", "b.toml"}) folder.write(name, scene);
   ASSERT_EQ(drape(folder, "bless a.toml b.toml").code, 0);
   folder.write("b.toml", scene + "[effects.damping]\nfactor = 0.9\n");
 }
 
-/// The report in a folder, without what a clock says.
+/// Returns the report in a folder without measured times.
 nlohmann::json report_in(const SceneFolder& folder, const std::string& place) {
   nlohmann::json json = nlohmann::json::parse(test::content(folder.path(place + "/report.json")));
   json.erase("date");
   json.erase("seconds");
-  json.erase("command");  // which has --jobs
+  json.erase("command");  // contains --jobs
   for (nlohmann::json& result : json["scenes"]) {
     result.erase("seconds");
-    result["candidate"] = !result["candidate"].get<std::string>().empty();  // whose hash has the time in it
+    result["candidate"] = !result["candidate"].get<std::string>().empty();  // its hash depends on the time
   }
   return json;
 }
 
-// Whatever draws takes a fifth of a second to begin: what can be asked of one process is not asked of two.
+// Starting to draw takes a fifth of a second, so one process answers as many questions as possible.
 TEST(CheckShards, AndJobsFindWhatOneCheckFinds) {
   const SceneFolder folder;
   write_scenes(folder);

@@ -75,7 +75,7 @@ TEST(CommandLine, RefusesAFactorThatCannotFitBeforeItIsBegun) {
   EXPECT_NE(finished.text.find("a sparse factor of 121197 rows would take"), std::string::npos) << finished.text;
 }
 
-// Whatever memory there is: quasi-Newton on patches of a large cloth is never left out for want of it.
+// Independent of the available memory: quasi-Newton on patches of a large cloth is never left out.
 TEST(CommandLine, EitherRefusesWhatCannotFitOrComesToTheSameBits) {
   const test::SceneFolder folder;
   folder.write("scene.toml", scene);
@@ -103,14 +103,14 @@ TEST(CommandLine, SaysWhatErrorTheStepsLeftAndThatAStandingClothIsNoEquilibrium)
   EXPECT_NE(finished.text.find(", estimated error "), std::string::npos) << finished.text;
   EXPECT_NE(finished.text.find("its weight out of balance, so this is not an equilibrium"), std::string::npos)
       << finished.text;
-  // Left to itself it says so too, and has nothing to warn of.
+  // With the default settings it reports an error estimate, without a warning.
   finished = drape(folder, "simulate scene.toml --set integrator={} --set integrator.method=quasi-newton");
   EXPECT_EQ(finished.code, 0) << finished.text;
   EXPECT_NE(finished.text.find(", estimated error "), std::string::npos) << finished.text;
   EXPECT_EQ(finished.text.find("equilibrium"), std::string::npos) << finished.text;
 }
 
-// It is said in the summary and beside each step, with the number of substeps as it is.
+// The summary and each step report it, with the actual number of substeps.
 TEST(CommandLine, SaysOfAnAbsurdlySmallAccuracyThatStepsMissedIt) {
   const test::SceneFolder folder;
   folder.write("scene.toml", scene);
@@ -168,7 +168,7 @@ TEST(CommandLine, RendersIntoOutByDefault) {
 
 TEST(CommandLine, DrawsAFrameOfTheFilmWhicheverRangeItIsIn) {
   const test::SceneFolder folder;
-  folder.write("scene.toml", scene);  // whose camera has to see the whole motion
+  folder.write("scene.toml", scene);  // its camera frames the whole motion
   EXPECT_EQ(drape(folder, "render scene.toml -o all/{frame:02}.png").code, 0);
   EXPECT_EQ(drape(folder, "render scene.toml -o some/{frame:02}.png --frames 4..6").code, 0);
   const cv::Mat all = test::read_picture(folder.path() / "all/05.png");
@@ -181,14 +181,14 @@ TEST(CommandLine, DrawsAFrameOfTheFilmWhicheverRangeItIsIn) {
 
 TEST(CommandLine, TakesAFrameAfterEverySoManySteps) {
   const test::SceneFolder folder;
-  folder.write("scene.toml", scene);  // of 20 steps
+  folder.write("scene.toml", scene);  // 20 steps
   EXPECT_EQ(drape(folder, "simulate scene.toml -o {frame}.obj --every 6 --frames 1..3 --positions end.csv").code, 0);
   EXPECT_FALSE(fs::exists(folder.path() / "0.obj"));
   for (const int k : {1, 2, 3}) {
     EXPECT_EQ(drape(folder, "simulate scene.toml -o still.obj --every 1 --steps " + std::to_string(6 * k)).code, 0);
     const auto vertices = [&](const std::string& file) {
       const std::string text = test::content(folder.path(file));
-      return text.substr(text.find('\n'));  // after the line that says which frame it is
+      return text.substr(text.find('\n'));  // skips the line with the frame's number
     };
     EXPECT_EQ(vertices(std::to_string(k) + ".obj"), vertices("still.obj")) << k;
   }
@@ -198,7 +198,7 @@ TEST(CommandLine, TakesAFrameAfterEverySoManySteps) {
 
 TEST(CommandLine, TakesFramesByTime) {
   const test::SceneFolder folder;
-  folder.write("scene.toml", scene);  // of 20 steps of 0.02 s, and a frame every 0.04 s
+  folder.write("scene.toml", scene);  // 20 steps of 0.02 s, and a frame every 0.04 s
   const auto frames = [&](const std::string& options) {
     std::filesystem::remove_all(folder.path("f"));
     const auto finished = drape(folder, "simulate scene.toml -o f/{frame}.obj " + options);
@@ -287,8 +287,7 @@ TEST(CommandLine, ADivergedRunExitsWith3AndKeepsItsFilm) {
       "--set integrator.allow_unstable=true --set cloth.stiffness=1e5 --set time.step=0.05 --set time.duration=200");
   EXPECT_EQ(finished.code, 3) << finished.text;
   EXPECT_NE(finished.text.find("diverged at step"), std::string::npos) << finished.text;
-  // Complete as far as it goes, a GIF that ends as it should, with fewer frames than were asked for: under a name that
-  // no complete film has.
+  // The GIF is valid and complete up to there, with fewer frames than requested, under a name that marks it as partial.
   EXPECT_EQ(test::content(folder.path() / "film.gif"), "old");
   const std::size_t frames = test::read_gif(folder.path() / "film.partial.gif").delays.size();
   EXPECT_GE(frames, 1U);

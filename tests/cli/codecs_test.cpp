@@ -6,8 +6,8 @@
 
 #include "tests/cli/run_drape.hpp"
 
-// What encodes and decodes is a module that is loaded when it is first used: drape starts without it, finds it from
-// wherever the two were installed or moved to, and says so if it is not there.
+// Encoders and decoders are in a module loaded at first use: drape starts without it, finds it wherever both were
+// installed or moved, and reports its absence.
 
 namespace drape::codecs_apart {
 namespace {
@@ -20,7 +20,7 @@ using test::SceneFolder;
 
 const std::string scene = test::least_scene + "duration = 0.05\n[video]\nsize = [32, 32]\n";
 
-/// The libraries that a run has the loader look at, each in a line of its own.
+/// Returns the libraries that the loader opens in a run, one per line.
 std::string loaded_by(const SceneFolder& folder, const std::string& arguments) {
   const Finished finished = drape(folder, arguments, "LD_DEBUG=files");
   EXPECT_EQ(finished.code, 0) << finished.text;
@@ -42,7 +42,7 @@ TEST(Codecs, AreLoadedOnlyByWhatEncodesFilms) {
   EXPECT_TRUE(loads_codecs(loaded_by(folder, "render scene.toml -o film.gif")));
 }
 
-/// drape as cmake --install leaves it, moved to another place.
+/// An installation by cmake --install, moved to another folder.
 struct MovedTree : SceneFolder {
   MovedTree() {
     write("scene.toml", scene);

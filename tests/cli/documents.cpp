@@ -7,7 +7,7 @@
 namespace drape::test {
 namespace {
 
-/// The text of a comment "<!-- key: text -->", or nothing.
+/// Returns the text of a comment "<!-- key: text -->", or nothing.
 std::string mark(const std::string& line, const std::string& key) {
   const std::string begin = "<!-- " + key + ": ", end = " -->";
   if (!line.starts_with(begin) || !line.ends_with(end)) return {};
@@ -73,7 +73,7 @@ bool is_as_quoted(const std::string& quoted, const std::string& line) {
   for (bool first = true;; first = false) {
     const std::size_t end = quoted.find(any, begin);
     const std::string part = quoted.substr(begin, end == std::string::npos ? end : end - begin);
-    if (end == std::string::npos) {  // the last part stands at the end
+    if (end == std::string::npos) {  // the last part must match the end
       if (first) return line == part;
       return line.size() >= at + part.size() && line.ends_with(part);
     }
@@ -86,7 +86,7 @@ bool is_as_quoted(const std::string& quoted, const std::string& line) {
 
 bool are_as_quoted(const std::vector<std::string>& quoted, const std::vector<std::string>& output) {
   std::size_t at = 0;
-  bool others = false;  // may stand before the next quoted line
+  bool others = false;  // other lines may precede the next quoted line
   for (const std::string& line : quoted) {
     if (line == "…") {
       others = true;

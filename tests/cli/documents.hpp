@@ -6,35 +6,35 @@
 
 namespace drape::test {
 
-/// A command of a page, with what the page quotes of its output.
+/// A command of a page, with its quoted output.
 struct QuotedCommand {
   std::string command;
-  std::vector<std::string> output;  ///< lines; empty: nothing is quoted
-  int code = 0;                     ///< that it should end with
-  int line = 0;                     ///< of the page
+  std::vector<std::string> output;  ///< lines; empty: no output is quoted
+  int code = 0;                     ///< expected exit code
+  int line = 0;                     ///< line number in the page
 };
 
-/// A fenced block of a Markdown page, and the marks in HTML comments before it:
+/// A fenced block of a Markdown page, and its directives in preceding HTML comments:
 ///   <!-- file: NAME -->      the block is this file
-///   <!-- test: skip WHY -->  installs something, or belongs to another system
+///   <!-- test: skip WHY -->  installs programs, or belongs to another system
 ///   <!-- test: nightly -->   takes minutes
-///   <!-- test: exit N -->    its commands end with this code
+///   <!-- test: exit N -->    its commands exit with this code
 struct Block {
   std::string language, file, test;
   std::vector<std::string> lines;
-  int line = 0;  ///< of the first of them in the page
+  int line = 0;  ///< line number of the first one in the page
 };
 
 std::vector<Block> blocks_of(const std::filesystem::path& page);
 
-/// The commands of a block: of a `console`, what follows "$ ", with the output up to the next; of one without a
-/// language or of `sh`, the lines that begin with "drape ".
+/// Returns the commands of a block. In a `console` block they follow "$ ", each with the output up to the next; in a
+/// block without a language or of `sh` they are the lines that begin with "drape ".
 std::vector<QuotedCommand> commands_of(const Block& block);
 
-/// Whether a line is as it is quoted, where "…" stands for anything.
+/// Returns true if a line matches its quotation, in which "…" matches any text.
 bool is_as_quoted(const std::string& quoted, const std::string& line);
 
-/// Whether the output is as it is quoted: the quoted lines in order, and others only where a line "…" stands.
+/// Returns true if the output matches its quotation: the quoted lines in order, and others only at a line "…".
 bool are_as_quoted(const std::vector<std::string>& quoted, const std::vector<std::string>& output);
 
 }  // namespace drape::test

@@ -1,4 +1,4 @@
-// What the pages say that one can type is typed, in order, in a folder with a few small scenes.
+// Runs the commands quoted in the pages, in order, in a folder with a few small scenes.
 
 #include "tests/cli/documents.hpp"
 
@@ -21,10 +21,10 @@ using test::QuotedCommand;
 
 const fs::path source = DRAPE_SOURCE_DIR;
 
-/// The files that commands of the pages name.
+/// Writes the files named by the pages' commands.
 void write_files(const test::SceneFolder& folder) {
   std::string small = test::swinging_scene + "[video]\nsize = [64, 48]\n";
-  small.replace(small.find("step = 0.02"), 11, "step = 0.01");  // which the explicit methods take
+  small.replace(small.find("step = 0.02"), 11, "step = 0.01");  // stable for the explicit methods
   for (const char* name :
        {"scene.toml", "a.toml", "cloth.toml", "my.toml", "new.toml", "other.toml", "scenes/flag.toml"})
     folder.write(name, small);
@@ -34,8 +34,8 @@ void write_files(const test::SceneFolder& folder) {
   fs::create_directory_symlink(source / "scenes/homework", folder.path() / "scenes/homework");
 }
 
-/// Runs commands in one shell, so that each is where the one before it has left it.
-/// @returns of each its output, with its exit code in the last line
+/// Runs commands in one shell, so that each starts where the previous one ended.
+/// @returns the output of each, with its exit code in the last line
 std::vector<std::vector<std::string>> outputs_of(const test::SceneFolder& folder,
                                                  const std::vector<QuotedCommand>& all) {
   std::string script = "PATH='" + fs::path(DRAPE_EXECUTABLE).parent_path().string() + "':$PATH\nexec 2>&1\n";
@@ -44,8 +44,7 @@ std::vector<std::vector<std::string>> outputs_of(const test::SceneFolder& folder
   std::istringstream text(test::run_shell(folder, "bash commands.sh </dev/null").text);
   std::vector<std::vector<std::string>> outputs(1);
   for (std::string line; std::getline(text, line);) {
-    static const std::regex progress(
-        "[a-z ]+ [0-9]+/[0-9]+ [a-z]+(  .* left)?");  // of what takes long on a busy machine
+    static const std::regex progress("[a-z ]+ [0-9]+/[0-9]+ [a-z]+(  .* left)?");  // of long commands on a busy machine
     if (std::regex_match(line, progress)) continue;
     const std::size_t end = line.find("@@ ");
     if (end != 0) outputs.back().push_back(line);
@@ -94,7 +93,7 @@ std::vector<std::string> pages() {
   std::vector<std::string> all{"README.md"};
   for (const auto& entry : fs::directory_iterator(source / "docs")) {
     const std::string name = entry.path().filename().string();
-    if (entry.path().extension() != ".md" || name.ends_with(".zh-CN.md")) continue;  // said again in Chinese, see below
+    if (entry.path().extension() != ".md" || name.ends_with(".zh-CN.md")) continue;  // Chinese pages are compared below
     std::size_t commands = 0;
     for (const Block& block : test::blocks_of(entry.path())) commands += test::commands_of(block).size();
     if (commands > 0) all.push_back("docs/" + name);
@@ -120,8 +119,8 @@ class LongDocuments : public Documents {};
 TEST_P(LongDocuments, CommandsDoWhatIsSaid) { expect_page_true(GetParam(), true); }
 INSTANTIATE_TEST_SUITE_P(Nightly, LongDocuments, testing::ValuesIn(pages()), test_name);
 
-/// What two languages of a page have in common: the levels of headings, commands, quoted output, code, links and
-/// pictures.
+/// Returns the parts that two languages of a page must share: levels of headings, commands, quoted output, code, links
+/// and pictures.
 std::string skeleton(const fs::path& page) {
   std::string text;
   for (const Block& block : test::blocks_of(page)) {
@@ -143,7 +142,7 @@ std::string skeleton(const fs::path& page) {
     if (level != std::string::npos && level > 0 && line[level] == ' ') text += line.substr(0, digits) + "\n";
     for (std::size_t at = 0; (at = line.find("](", at)) != std::string::npos; ++at) {
       const std::string target = line.substr(at + 2, line.find(')', at) - at - 2);
-      // A page links to the other language, and to the other page in its own.
+      // A page links to its other language, and to other pages in its own.
       if (target.find("README") == std::string::npos && target.find("tutorial") == std::string::npos)
         text += target + "\n";
     }
@@ -168,7 +167,7 @@ TEST(Quotes, StandForAnythingWhereTheyHaveDots) {
   EXPECT_FALSE(test::are_as_quoted({"…", "end"}, {"one"}));
 }
 
-/// Relative links of a page, but for those into a page.
+/// Relative links of a page, except those into a page, have targets.
 TEST(Links, LeadSomewhere) {
   for (const auto& folder : {source, source / "docs", source / "bench"}) {
     for (const auto& entry : fs::directory_iterator(folder)) {

@@ -1,5 +1,5 @@
-// What goes wrong around drape: full disks, broken files, signals, crowds. Whatever it is, a film is there completely
-// or not at all, and what stood in its place before is still whole.
+// Faults around drape: full disks, broken files, signals, many processes. A film is always complete or absent, and the
+// file that it would replace stays intact.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -51,7 +51,7 @@ pid_t start_film(const SceneFolder& folder, const std::vector<std::string>& more
   _exit(99);
 }
 
-/// Sends a signal after a time and returns how the process ended, as a shell says it.
+/// Sends a signal after a time and returns the exit code as a shell reports it.
 int end_with(pid_t child, int signal, double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   kill(child, signal);
@@ -60,7 +60,7 @@ int end_with(pid_t child, int signal, double seconds) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// What writes one file of each kind, the name that it has, or of which it is a part, and the command.
+/// Returns for each kind of file its name, or a part of it, and a command that writes it.
 std::vector<std::pair<std::string, std::string>> all_kinds_of_files() {
   std::vector<std::pair<std::string, std::string>> kinds{
       {"0000.png", "render scene.toml -o FOLDER/{frame:04}.png"},
@@ -103,7 +103,7 @@ TEST(Faults, AFullDiskExitsWith4AndLeavesTheOldFile) {
     const SceneFolder folder;
     folder.write("scene.toml", scene);
     folder.write(file, "old");
-    // The shell makes the system refuse to let any file grow, and drape inherits that.
+    // The shell forbids any file to grow, and drape inherits the limit.
     const Finished finished = drape(folder, in_folder(command, "."), "ulimit -f 0;");
     EXPECT_EQ(finished.code, 4) << finished.text;
     EXPECT_NE(finished.text.find("cannot write "), std::string::npos) << finished.text;
@@ -177,7 +177,7 @@ TEST(Faults, CtrlCAtAnyMomentLeavesAPlayableFilmOrNone) {
   }
 }
 
-/// A limit that nothing can keep to, with more sweeps than a day has time for, once the cloth has fallen on the sphere.
+/// An unreachable strain limit with a huge number of sweeps, once the cloth has fallen on the sphere.
 TEST(Faults, CtrlCEndsAStepThatWouldTakeForEver) {
   const SceneFolder folder;
   folder.write(
@@ -197,7 +197,7 @@ TEST(Faults, CtrlCEndsAStepThatWouldTakeForEver) {
   EXPECT_EQ(static_cast<std::ptrdiff_t>(test::read_gif(folder.path() / "film.partial.gif").delays.size()), drawn);
 }
 
-// A camera without a place has to know the motion before anything is drawn: here as far as it has come.
+// A camera without a position needs the motion before anything is drawn: here the part simulated so far.
 TEST(Faults, CtrlCDrawsWhatWasSimulatedWhereTheCameraLooksAtTheMotion) {
   const SceneFolder folder;
   folder.write("scene.toml", test::least_scene + "duration = 2\n[effects.gravity]\n[video]\nsize = [64, 48]\n");
@@ -219,11 +219,11 @@ TEST(Faults, CtrlCPutsWhatWasDrawnBesideACompleteFilm) {
   EXPECT_EQ(names(folder), (std::vector<std::string>{"film.gif", "film.partial.gif", "scene.toml"}));
 }
 
-// Of a motion that is simulated much faster than it is drawn.
+// A motion that is simulated much faster than it is drawn.
 TEST(Faults, CtrlCDrawsForSomeSecondsAtMost) {
   const SceneFolder folder;
   folder.write("scene.toml", scene.substr(0, scene.find("[camera]")));
-  // A simulation of so long makes several times as many frames as can be drawn after Ctrl-C, on a busy machine, too.
+  // Simulates several times as many frames as can be drawn after Ctrl-C, even on a busy machine.
   constexpr double long_enough = 6;
   EXPECT_EQ(end_with(start_film(folder, {"--energies", "energies.csv"}), SIGINT, long_enough), 130);
   const std::string rows = content(folder.path() / "energies.partial.csv");
@@ -241,7 +241,7 @@ TEST(Faults, Kill9LeavesTheOldFilmWhole) {
     EXPECT_EQ(end_with(start_film(folder), SIGKILL, random.between(0, 1.2)), 128 + SIGKILL);
     EXPECT_EQ(content(folder.path() / "film.gif"), old);
   }
-  // What is left of the killed ones is gone with the next.
+  // The next run removes leftovers of the killed ones.
   EXPECT_EQ(drape(folder, "render scene.toml --quiet -o film.gif").code, 0);
   EXPECT_EQ(content(folder.path() / "film.gif"), old);
   EXPECT_EQ(names(folder), (std::vector<std::string>{"film.gif", "scene.toml"}));

@@ -28,7 +28,7 @@ COMMANDS = [
     "drape bless flag.toml",
     "drape check flag.toml",
 ]
-MAY_FAIL = {"drape"}  # says what there is, and that nothing was asked for
+MAY_FAIL = {"drape"}  # prints its help: no command was given
 
 
 class Terminal:

@@ -1,4 +1,4 @@
-// The README's pictures: a test cannot draw them all again, but it can see what they were made from.
+// The README's pictures: the test does not draw them again, but checks that their sources are unchanged.
 
 #include <gtest/gtest.h>
 

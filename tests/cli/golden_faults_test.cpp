@@ -1,4 +1,4 @@
-// What goes wrong around goldens: damaged ones, what is no golden, odd names, signals, a standard output that is full.
+// Faults around goldens: damaged ones, files that are no golden, odd names, signals, a full standard output.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -24,7 +24,7 @@ using test::drape;
 
 const std::string golden_scene = test::swinging_scene + "[check]\nframes = [0, 10]\nsize = [64, 48]\n";
 
-/// The files of a folder.
+/// Returns the files of a folder.
 std::map<std::string, std::string> files(const fs::path& folder) {
   std::map<std::string, std::string> all;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -174,7 +174,7 @@ TEST(GoldenFaults, AVerdictThatCannotBePrintedIsAnError) {
   const auto finished = drape(folder, "check swing.toml 2>err >/dev/full; exit $? #");
   EXPECT_EQ(finished.code, 4);
   EXPECT_NE(test::content(folder.path() / "err").find("standard output"), std::string::npos);
-  EXPECT_EQ(json_of(folder).at("passed"), true);  // the report is there all the same
+  EXPECT_EQ(json_of(folder).at("passed"), true);  // the report exists nevertheless
 }
 
 TEST(GoldenFaults, AReportThatCannotBeWrittenIsSaidBeforeAnythingIsComputed) {

@@ -1,4 +1,4 @@
-// Scenes whose names mean something to a terminal, a build server, a shell or Slurm.
+// Scenes whose names have a special meaning for a terminal, a build server, a shell or Slurm.
 
 #include <gtest/gtest.h>
 
@@ -17,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 using test::drape, test::Finished, test::SceneFolder;
 
-/// The names as those of files.
+/// Returns the names as file names.
 std::vector<std::string> file_names() {
-  constexpr std::size_t longest = 200;  // bytes; a file system takes 255
+  constexpr std::size_t longest = 200;  // [bytes]; a file system accepts 255
   std::vector<std::string> names;
   for (std::string name : test::hostile_names) {
     std::ranges::replace(name, '/', '_');
@@ -28,7 +28,7 @@ std::vector<std::string> file_names() {
   return names;
 }
 
-/// A scene of each name, and all of them as the words of a command.
+/// Writes a scene of each name, and returns all names as the words of a command.
 std::string write_scenes(const SceneFolder& folder) {
   std::string words;
   for (const std::string& name : file_names()) {
@@ -102,7 +102,7 @@ TEST(HostileNames, RunInScriptsForSlurm) {
 TEST(HostileNames, AreToldByFilesWithoutHarm) {
   const SceneFolder folder;
   folder.write("a.toml", test::swinging_scene);
-  // A motion says what its scene was called, and a run's record why it ended.
+  // A motion contains the name of its scene, and a run's record the reason of its end.
   const std::string odd = shell_word("red \x1b[31m\n::error::owned.toml");
   ASSERT_EQ(test::run(folder, "cp a.toml " + odd).code, 0);
   const Finished written = drape(folder, "simulate " + odd + " --steps 2 -o m.drape");
@@ -127,8 +127,8 @@ TEST(HostileNames, AreToldByFilesWithoutHarm) {
   }
 }
 
-/// The value of an option in the lines with which a script speaks to sbatch, as that reads it (slurm-23.11.0,
-/// src/sbatch/opt.c, _get_argument).
+/// Returns the value of an option in a script's #SBATCH lines, as sbatch parses it (slurm-23.11.0, src/sbatch/opt.c,
+/// _get_argument).
 std::string sbatch_value(const std::string& script, const std::string& option) {
   const std::string head = "#SBATCH " + option + "=";
   std::string value;

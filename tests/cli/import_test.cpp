@@ -16,7 +16,7 @@ using test::drape;
 using test::Finished;
 using test::SceneFolder;
 
-/// An OBJ of a sheet of 8×8 cells that has fallen for some frames of 20 ms.
+/// Returns an OBJ of a sheet of 8×8 cells after a fall of some frames of 20 ms.
 std::string falling(int frame, const std::function<void(Vertices&)>& fault = {}) {
   const Mesh grid = make_grid(8, 8);
   Vertices x = grid.positions;
@@ -28,7 +28,7 @@ std::string falling(int frame, const std::function<void(Vertices&)>& fault = {})
   return text;
 }
 
-/// A sequence of ten frames, one of which may have a fault.
+/// Writes a sequence of ten frames, one of which may have a defect.
 void write_sequence(const SceneFolder& folder, const std::function<void(Vertices&)>& fault = {}) {
   for (int frame = 0; frame < 10; ++frame) {
     folder.write(fmt::format("m/{:02}.obj", frame), falling(frame, frame == 5 ? fault : nullptr));
@@ -73,7 +73,7 @@ TEST(Import, IsFoundByTheAuditToHaveTheFaultsThatWerePutIntoIt) {
   EXPECT_NE(page.find("data:image/png;base64"), std::string::npos);
   EXPECT_NE(page.find("Turn this state"), std::string::npos);
 
-  write_sequence(folder, [](Vertices& x) { x(0, 0) -= 0.05; });  // a side of 0.25 becomes 0.3
+  write_sequence(folder, [](Vertices& x) { x(0, 0) -= 0.05; });  // a side grows from 0.25 to 0.3
   const Finished stretched = drape(folder, "audit " + sequence);
   EXPECT_EQ(stretched.code, 1) << stretched.text;
   EXPECT_NE(stretched.text.find("cloth edge 0 1 is stretched to 1.2"), std::string::npos) << stretched.text;
@@ -97,7 +97,7 @@ TEST(Import, RefusesInOneMessageWithExitCode2) {
   expect_refused("render " + sequence + " -o film.gif", "10.obj is missing before 12.obj");
 }
 
-/// The most that a process that has ended had in memory [kB].
+/// Returns the greatest memory of the finished child processes [kB].
 double most_memory() {
   rusage usage{};
   getrusage(RUSAGE_CHILDREN, &usage);

@@ -1,4 +1,4 @@
-// A signal is passed on as soon as it comes: nobody has to ask for it, and nobody does.
+// Signals arrive at once, without polling.
 
 #include "cli/interruption.hpp"
 
@@ -24,8 +24,7 @@
 namespace drape {
 namespace {
 
-/// Runs `work` in a process of its own, and returns how that ends, as a shell says it. After half a minute SIGALRM ends
-/// it.
+/// Runs `work` in a child process and returns its exit code as a shell reports it. SIGALRM ends it after half a minute.
 template <class Work>
 int end_of_process(Work&& work) {
   const pid_t child = fork();
@@ -83,8 +82,8 @@ TEST(Interruption, NobodyListensAnyMoreWhereThePipeHasComeToAnEnd) {
             0);
 }
 
-/// How often a thread of this process has had to wait.
-/// @param thread its number, by `gettid`
+/// Returns how often a thread of this process has waited.
+/// @param thread number of the thread, as from `gettid`
 long waits(pid_t thread) {
   std::ifstream status("/proc/self/task/" + std::to_string(thread) + "/status");
   const std::string name = "voluntary_ctxt_switches:";
@@ -96,9 +95,8 @@ long waits(pid_t thread) {
   return count;
 }
 
-/// Takes a step, waits for a line that nobody types, and is told to stop; returns how often this thread woke up during
-/// a second in the middle of the wait: what the step, its line of text and the end of the wait make it wait for is not
-/// in that.
+/// Takes a step, waits for a line of input that never comes, and is stopped. Returns how often this thread woke up
+/// during a second in the middle of the wait, so that the step, its output and the end of the wait do not count.
 long wakes_in_a_wait_for_the_next_step(const Simulation& simulation) {
   using std::chrono_literals::operator""ms;
   std::stop_source stop;

@@ -8,8 +8,7 @@
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
 
-// The manual's pages and the shells' completions are made from what the program says of itself: nothing is missing in
-// them.
+// The manual's pages and the shells' completions are generated from the program's own descriptions, and are complete.
 
 namespace drape::manual_pages {
 namespace {
@@ -26,7 +25,7 @@ struct Manual : SceneFolder {
     EXPECT_EQ(finished.code, 0) << finished.text;
   }
   [[nodiscard]] std::string page(const std::string& file) const { return test::content(path("share/man/" + file)); }
-  /// What bash offers for a line whose end is under the cursor, a word in a line each.
+  /// Returns bash's completions of a line with the cursor at its end, one word per line.
   [[nodiscard]] std::string completed(const std::string& line) const {
     write("complete.sh",
           ". share/bash-completion/completions/drape\nCOMP_LINE=$1 COMP_POINT=${#1}\n_drape\n"
@@ -35,7 +34,7 @@ struct Manual : SceneFolder {
   }
 };
 
-/// Without the backslashes before its dashes.
+/// Removes the backslashes before dashes.
 std::string plain(std::string text) {
   std::erase(text, '\\');
   return text;
@@ -98,7 +97,7 @@ TEST(Completion, OffersCommandsOptionsKeysAndValuesInBash) {
   EXPECT_EQ(manual.completed("drape watch a.toml --quality d"), "draft\n");
   EXPECT_EQ(manual.completed("drape render a.toml --backend os"), "osmesa\n");
   EXPECT_EQ(manual.completed("drape render a.toml --set effects.gravity.acc"), "effects.gravity.acceleration=\n");
-  // Where = ends a word, as in every bash that nobody has set up otherwise, only what follows it is put in.
+  // If = ends a word, as in an unconfigured bash, a completion contains only the text after it.
   EXPECT_EQ(manual.completed("drape render a.toml --set integrator.method=li"), "liu13\n");
   EXPECT_EQ(manual.completed("drape compare a.toml --vary look.shadows="), "true\nfalse\n");
 }
@@ -132,7 +131,7 @@ TEST(Completion, IsRightZsh) {
   EXPECT_EQ(run_shell(manual, "zsh -n share/zsh/vendor-completions/_drape").text, "");
 }
 
-// dpkg-shlibdeps does not see what is opened by name when it is first used.
+// dpkg-shlibdeps does not see libraries opened by name at first use.
 TEST(Package, DependsOnEveryLibraryThatIsLoadedAtRunTime) {
   const SceneFolder folder;
   if (run_shell(folder, "command -v dpkg-query").code != 0) GTEST_SKIP() << "not a Debian system";
@@ -145,7 +144,7 @@ TEST(Package, DependsOnEveryLibraryThatIsLoadedAtRunTime) {
       const std::string text = test::content(entry.path());
       for (std::sregex_iterator at(text.begin(), text.end(), library), end; at != end; ++at) {
         const Finished found = run_shell(folder, "dpkg-query --search '*/" + (*at)[1].str() + "'");
-        if (found.code != 0) continue;  // another system's name for it
+        if (found.code != 0) continue;  // a name on another system
         const std::string package = found.text.substr(0, found.text.find(':'));
         EXPECT_TRUE(std::regex_search(lists, std::regex("[\" ]" + package + "[\",]")))
             << entry.path() << ": " << package;

@@ -1,4 +1,4 @@
-// Motion files from the command line: recorded, killed, gone on with and drawn.
+// Motion files on the command line: recorded, killed, resumed and drawn.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -35,7 +35,7 @@ TEST_P(HomeworkMotion, IsDrawnAsTheSceneIs) {
   EXPECT_EQ(content(folder.path("later.obj")), content(folder.path("direct.obj")));
 }
 
-/// Its sphere follows a USD file, which the motion brings along.
+/// Its sphere follows a USD file, which the motion file contains.
 TEST(ShowcaseMotion, IsDrawnWhereItsFilesAreNot) {
   const SceneFolder folder;
   for (const std::string name : {"moving_sphere.toml", "swinging_sphere.usda"}) {
@@ -51,7 +51,7 @@ TEST(ShowcaseMotion, IsDrawnWhereItsFilesAreNot) {
   EXPECT_TRUE(content(folder.path("later.gif")) == content(folder.path("direct.gif")));
 }
 
-/// Everything acts, for long enough to be killed within it.
+/// Returns a scene with all effects, long enough to be killed during its run.
 std::string long_scene(const NamedMethod& method) {
   std::string text =
       "[cloth]\nmesh = { grid = [10, 10] }\nstiffness = 50\npins = [0, 10]\n[time]\nstep = 0.005\nduration = 3\n"
@@ -66,7 +66,7 @@ std::string long_scene(const NamedMethod& method) {
          "[effects.self_collision]\nthickness = 0.02\n[effects.bending]\nrigidity = 1e-4\n";
 }
 
-/// Starts drape, and sends it a signal so many seconds after it has begun to record, if it is not over by then.
+/// Starts drape, and signals it some seconds after it began to record, unless it has finished by then.
 Finished signal_after(const SceneFolder& folder, const std::string& arguments, double seconds,
                       const std::string& name) {
   return run_shell(folder, std::string("{ ") + DRAPE_EXECUTABLE + " " + arguments +
@@ -74,7 +74,7 @@ Finished signal_after(const SceneFolder& folder, const std::string& arguments, d
                                std::to_string(seconds) + "; kill -" + name + " $p; wait $p; }");
 }
 
-/// Kills a run again and again until it comes to its end.
+/// Kills a run repeatedly until it reaches its end.
 void expect_same_after_kills(const NamedMethod& method, int kills) {
   const SceneFolder folder;
   folder.write("scene.toml", long_scene(method));
@@ -122,7 +122,7 @@ TEST(InterruptedRun, SaysHowItGoesOn) {
             "drape: m.drape.partial is not complete: drape simulate --resume m.drape.partial continues it\n");
 }
 
-/// Whichever way it ended early: one command completes the motion and makes what the run was to make.
+/// After any early end, one command completes the motion and all outputs of the run.
 TEST(InterruptedRun, GoesOnToTheSameFilms) {
   const SceneFolder folder;
   folder.write("scene.toml", long_scene(all_methods[5]) + "[video]\nsize = [64, 48]\nfps = 2\n");
@@ -167,7 +167,7 @@ TEST(InterruptedRun, DoesNotGoOnWhereItsFilmsCannotBeMade) {
             "drape: --resume m.drape continues the run of its own scene, and takes no SCENE\n");
 }
 
-/// The most that a process that has ended had in memory [kB].
+/// Returns the greatest memory of the finished child processes [kB].
 double most_memory() {
   rusage usage{};
   getrusage(RUSAGE_CHILDREN, &usage);
@@ -195,7 +195,7 @@ TEST(RecordedRun, KeepsItsMemoryWhateverItsLength) {
   EXPECT_LT(most_memory(), small + 0.3 * size);
 }
 
-/// All but what the clock said.
+/// Compares everything except measured times.
 TEST(MotionOnTheCommandLine, HasItsRecordsWhenItIsComplete) {
   const SceneFolder folder;
   folder.write("scene.toml", swinging_scene);

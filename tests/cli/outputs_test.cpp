@@ -1,5 +1,5 @@
-// What a run writes, and where: no file over another or over what is read, no result lost for what goes wrong beside
-// it.
+// Files that a run writes: no file replaces another output or an input, and no result is lost through an unrelated
+// error.
 
 #include <gtest/gtest.h>
 
@@ -20,10 +20,10 @@ using test::Finished;
 using test::SceneFolder;
 
 const std::string scene = test::swinging_scene + "[video]\nsize = [64, 48]\n";
-/// Whose motion needs no second run to be framed.
+/// A scene with a fixed camera, so that its motion needs no second run for framing.
 const std::string framed = scene + "[camera]\nposition = [4, 4, 3]\ntarget = [0, 0, 0]\n";
 
-/// Runs a line of shell in the folder, in which $drape is the drape that was built.
+/// Runs a line of shell in the folder, in which $drape is the built drape.
 int shell(const SceneFolder& folder, const std::string& line) {
   const std::string command = "cd '" + folder.path().string() + "' && drape=" + DRAPE_EXECUTABLE + " && " + line;
   const int status = std::system(command.c_str());
@@ -125,7 +125,7 @@ TEST(Outputs, ThatCannotBeWrittenDoNotKeepTheOthersFromIt) {
   const SceneFolder folder;
   folder.write("scene.toml", framed);
   folder.write("small.toml", framed);
-  // The film of large frames outgrows what the shell allows a file, and nothing else does.
+  // Only the film of large frames exceeds the shell's limit for a file's size.
   const std::string outputs = " -o {scene}.avi -o {scene}.png --energies {scene}.csv ";
   const Finished finished = drape(folder,
                                   "render scene.toml small.toml" + outputs +
@@ -169,7 +169,7 @@ TEST(Outputs, OfASceneThatFailsDoNotKeepTheNextFromItsOwn) {
   const SceneFolder folder;
   folder.write("a.toml", framed + "[look]\nsamples = 1\n");
   folder.write("b.toml", framed);
-  // What the first run cannot have is known only when it starts.
+  // The first run's missing memory is detected only when it starts.
   const Finished finished =
       drape(folder,
             "simulate a.toml b.toml --stats {scene}.json --set 'cloth.mesh={ grid = [200, 200] }' "
@@ -237,7 +237,8 @@ TEST(MotionOutputs, OfAMotionThatEndsEarlyAreCalledPartial) {
       drape(folder, "simulate scene.toml --step-by-step --quiet -o end.obj -o {frame:02}.obj < input");
   EXPECT_EQ(finished.code, 130) << finished.text;
   EXPECT_EQ(content(folder.path("end.obj")), "old");
-  EXPECT_EQ(content(folder.path("end.partial.obj")), content(folder.path("02.obj")));  // after five of 0.04 s / 0.02 s
+  EXPECT_EQ(content(folder.path("end.partial.obj")),
+            content(folder.path("02.obj")));  // after five frames of 0.04 s / 0.02 s steps
 }
 
 TEST(Outputs, OfASequenceAreToldInOneLine) {

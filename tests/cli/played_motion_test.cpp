@@ -1,4 +1,4 @@
-// Golden motions of motions that are read: drape bless, check, accept, compare and lint.
+// Goldens of imported motions: drape bless, check, accept, compare and lint.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using test::drape;
 using test::Finished;
 using test::SceneFolder;
 
-/// A sheet of 8×8 cells that swings and falls, as OBJ; vertex i of the file is vertex order[i] of the sheet.
+/// Returns a sheet of 8×8 cells that swings and falls, as OBJ; vertex i of the file is vertex order[i] of the sheet.
 std::string falling(int frame, const std::vector<int>& order, double fault) {
   const Mesh grid = make_grid(8, 8);
   std::vector<int> number(order.size());

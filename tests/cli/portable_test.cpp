@@ -1,5 +1,4 @@
-// The layout of the portable archive (script/portable), with this system's loader and libraries in place of the
-// archive's own.
+// The layout of the portable archive (script/portable), with this system's loader and libraries instead of its own.
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -17,7 +16,7 @@ namespace fs = std::filesystem;
 using test::Finished;
 using test::SceneFolder;
 
-/// The loader of this process.
+/// Returns the loader of this process.
 fs::path loader() {
   Dl_info info{};
   // NOLINTNEXTLINE(performance-no-int-to-ptr): the kernel tells addresses as numbers

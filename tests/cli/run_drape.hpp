@@ -15,7 +15,7 @@ struct Finished {
   std::string text;  // standard output and error together
 };
 
-/// Runs a shell's command in the folder.
+/// Runs a shell command in the folder.
 inline Finished run_shell(const SceneFolder& folder, const std::string& command) {
   const std::string line = "cd '" + folder.path().string() + "' && " + command + " 2>&1";
   Finished finished;
@@ -30,13 +30,13 @@ inline Finished run_shell(const SceneFolder& folder, const std::string& command)
 
 inline Finished run(const SceneFolder& folder, const std::string& command) { return run_shell(folder, command); }
 
-/// Runs the drape that was built, in the folder.
-/// @param environment assignments that stand before it on the shell's command line
+/// Runs the built drape in the folder.
+/// @param environment assignments before it on the shell's command line
 inline Finished drape(const SceneFolder& folder, const std::string& arguments, const std::string& environment = "") {
   return run_shell(folder, environment + " " + DRAPE_EXECUTABLE + " " + arguments);
 }
 
-/// A cloth that swings for 0.4 s; a test adds tables.
+/// A cloth that swings for 0.4 s; tests add tables.
 const std::string swinging_scene =
     "[cloth]\n"
     "mesh = { grid = [6, 6] }\n"

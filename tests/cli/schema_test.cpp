@@ -11,8 +11,8 @@
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
 
-// An editor that has the schema accepts the scenes that drape accepts, and refuses those whose keys or values drape
-// refuses. The validator is somebody else's.
+// The schema accepts the scenes that drape accepts, and rejects those with keys or values that drape rejects. The
+// validator is independent.
 
 namespace drape::schema_of_scenes {
 namespace {
@@ -33,7 +33,7 @@ for file in sys.stdin.read().split("\n")[:-1]:
     print(file, "|", errors[0].replace("\n", " ") if errors else "valid", sep="")
 )";
 
-/// What the validator says of each file: "valid", or what is wrong with it.
+/// Returns the validator's verdict on each file: "valid", or its error.
 std::map<std::string, std::string> validate(const SceneFolder& folder, const std::vector<fs::path>& files) {
   folder.write("validate.py", validator);
   std::string list;
@@ -82,15 +82,15 @@ TEST(Schema, EverySceneNamesTheSchemaThatTheProgramPrints) {
   }
 }
 
-/// A number as TOML has it.
+/// Formats a number for TOML.
 std::string number(double value, bool whole) {
   return whole ? fmt::format("{}", std::llround(value)) : fmt::format("{:.17e}", value);
 }
 
-/// Values that a key does not take, each of the right form but for one thing.
+/// Returns values that a key rejects, each wrong in one respect.
 std::vector<std::string> wrong_values(const Key& key) {
   std::vector<std::string> wrong{"1979-05-27", "{ nonsense = 1 }"};
-  std::size_t count = 0;  // of its numbers
+  std::size_t count = 0;  // of the key's numbers
   bool whole = false;
   if (std::holds_alternative<double*>(key.target) || std::holds_alternative<std::optional<double>*>(key.target)) {
     count = 1;

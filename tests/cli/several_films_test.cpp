@@ -1,4 +1,5 @@
-// Several scenes in one command: while the films of one are completed, the next is drawn. Nothing of that is seen.
+// Several scenes in one command: the next one is drawn while films of the previous are completed, without visible
+// effect.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ using test::drape;
 using test::Finished;
 using test::SceneFolder;
 
-/// What a run says, without the figures that depend on the machine.
+/// Returns a run's output without machine-dependent figures.
 std::string without_times(const std::string& text) {
   return std::regex_replace(text, std::regex("[0-9.]+ (µs|ms|s)\\b"), "some time");
 }

@@ -1,4 +1,4 @@
-// Folders and files that come from somebody else: whatever they say, nothing outside of the output changes.
+// Untrusted folders and files: whatever they contain, nothing outside of the output changes.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using test::SceneFolder;
 
 const std::string scene = test::swinging_scene + "[check]\nframes = [0, 10]\nsize = [64, 48]\n";
 
-/// Every file in a folder with its bytes, and every link with where it leads, but for what is in one place.
+/// Returns every file with its bytes and every link with its target, except those in one place.
 std::map<std::string, std::string> listing(const fs::path& folder, const std::string& but = "") {
   std::map<std::string, std::string> all;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -41,7 +41,7 @@ std::map<std::string, std::string> listing(const fs::path& folder, const std::st
 
 json read(const fs::path& file) { return json::parse(test::content(file)); }
 
-/// A folder with a victim in it, and with what strangers send.
+/// A folder with untrusted files and files that they must not change.
 class Strangers : public testing::Test {
  protected:
   Strangers() {
@@ -49,7 +49,7 @@ class Strangers : public testing::Test {
     folder_.write("victim/run.json", "{}");
   }
 
-  /// A command is refused in one line that says what it must, and changes nothing at all.
+  /// Expects a command to fail with the given words in one line, and to change nothing.
   void expect_refused(const std::string& command, const std::string& words) {
     const auto before = listing(folder_.path());
     const Finished finished = drape(folder_, command);
@@ -59,7 +59,7 @@ class Strangers : public testing::Test {
     EXPECT_EQ(listing(folder_.path()), before) << command;
   }
 
-  /// A command ends in order, and changes nothing but its output, which is removed again.
+  /// Expects a command to succeed and to change only its output, which is removed again.
   void expect_only_output(const std::string& command) {
     const auto before = listing(folder_.path(), "out");
     const Finished finished = drape(folder_, command);
@@ -151,7 +151,7 @@ class StrangersCheck : public Strangers {
     folder_.write("b.toml", scene + "[effects.damping]\nfactor = 0.9\n");
     EXPECT_EQ(drape(folder_, "check b.toml a.toml --report in --shard 1/2").code, 1);
     const std::string bytes = test::content(folder_.path(mark_));
-    shard_ = json::from_cbor(bytes, false);  // its checksum follows
+    shard_ = json::from_cbor(bytes, false);  // a checksum follows
   }
   void write(const json& shard) {
     const std::vector<std::uint8_t> bytes = json::to_cbor(shard);
@@ -192,7 +192,7 @@ TEST_F(StrangersCheck, HasPlacesThatThereAre) {
   });
   refused([](json& s) { s["report"]["scenes"][0]["verdict"] = 99; });
   refused([](json& s) { s["report"]["scenes"][0]["windows"]["motion"] = -1; });
-  folder_.write(mark_, seal_shard(std::string(1'000'000, '\x81') + "\xf6"));  // a list in a list in a list…
+  folder_.write(mark_, seal_shard(std::string(1'000'000, '\x81') + "\xf6"));  // deeply nested lists
   expect_refused("merge in -o out", "check.cbor: it is damaged");
   const std::vector<std::uint8_t> cbor = json::to_cbor(shard_);
   folder_.write(mark_, {cbor.begin(), cbor.end()});  // without a checksum
@@ -222,7 +222,7 @@ TEST_F(Strangers, SceneHasANameThatStaysInItsFolder) {
   expect_refused("simulate in/...toml -o 'out/{scene}/m.drape'", "out/{scene}/m.drape: {scene}: expected a plain name");
 }
 
-/// A check deletes only what it has written.
+/// A check deletes only its own files.
 TEST_F(Strangers, CheckKeepsWhatIsNoGolden) {
   folder_.write("a.toml", scene);
   ASSERT_EQ(drape(folder_, "bless a.toml").code, 0);
@@ -278,7 +278,7 @@ TEST_F(Strangers, SceneWhoseNameIsNotUtf8IsAccepted) {
   }
 }
 
-/// Shards in which any bits are others: what comes of them is in the output, and the rest as it was.
+/// Shards with random bits flipped: effects stay within the output.
 class TamperedCheck : public StrangersCheck, public testing::WithParamInterface<int> {};
 
 TEST_P(TamperedCheck, ChangesNothingElse) {

@@ -17,7 +17,7 @@ using test::drape;
 using test::Finished;
 using test::SceneFolder;
 
-/// The results have a page, its Markdown, these tables, and these diagrams in every format.
+/// Checks that the results have a page, its Markdown, these tables, and these diagrams in every format.
 void expect_results(const SceneFolder& folder, const Finished& finished, std::vector<std::string> files,
                     const std::vector<std::string>& diagrams) {
   EXPECT_EQ(finished.code, 0) << finished.text;
@@ -85,11 +85,11 @@ TEST(Study, OfAccuracyWritesEverythingForEveryScene) {
       {"b-a-solve", "b-a-motion-1", "b-a-motion-2", "b-a-step", "b-a-step-cost", "b-a-apart", "b-a-asked-and-got",
        "b-a-error-cost", "b-a-film", "profile"});
 
-  // All of it again, from the runs and the animations.
+  // Recreates everything from the runs and the animations.
   std::map<std::string, std::string> before;
   for (const auto& file : std::filesystem::directory_iterator(folder.path() / "results")) {
     const std::string name = file.path().filename().string();
-    if (file.path().extension() == ".pdf") continue;  // which say when they were made
+    if (file.path().extension() == ".pdf") continue;  // contains its date
     before[name] = test::content(file.path());
     const bool kept = name == "runs.csv" || name.find("-by-methods.") != std::string::npos;
     if (!kept) std::filesystem::remove(file.path());
@@ -99,7 +99,7 @@ TEST(Study, OfAccuracyWritesEverythingForEveryScene) {
   EXPECT_EQ(again.text.substr(again.text.find(" costs")), finished.text.substr(finished.text.find(" costs")));
   for (const auto& [name, content] : before) {
     const std::string now = test::content(folder.path() / "results" / name);
-    if (name == "report.html") {  // which has motions to turn where they have just been computed
+    if (name == "report.html") {  // has interactive motions only right after they are computed
       EXPECT_LT(now.size(), content.size());
       EXPECT_GT(now.size(), 10'000U);
     } else {
@@ -124,7 +124,7 @@ TEST(Study, OfAccuracyMakesAReportOfWholeRunsOnly) {
   expect_error("", "expected a scene file, or --report-only");
 }
 
-// What a scene is called ends up in file names, links, tables, and commands.
+// A scene's name appears in file names, links, tables and commands.
 TEST(Study, OfAccuracyTakesScenesOfAnyName) {
   const SceneFolder folder;
   for (const std::string name : {"x';system(\"touch pwned\");#", "<b>&|{frame},\""}) {
@@ -165,14 +165,14 @@ TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
   expect_error("a.toml --parts films", "films are drawn of what 'asked' runs");
   expect_error("a.toml --parts estimates", "those of what 'asked' runs");
   expect_error("a.toml --patience 0", "--patience");
-  // Of one method only, which is asked for: semi-implicit Euler has nothing to solve for. Its turn would come after the
-  // reference motion.
+  // It names semi-implicit Euler, which has nothing to solve for, although that would run only after the reference
+  // motion.
   folder.write("a.toml", swing + "[effects.field]\nacceleration = [\"-x\", \"0\", \"0\"]\n");
   expect_error("a.toml --times 0.1 --methods liu13,semi-implicit --set time.duration=1e5", "semi-implicit Euler");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
-// What is measured again takes other times, so what has the same was kept.
+// Repeated measurements give different times, so equal times prove that results were kept.
 TEST(Study, OfAccuracyGoesOnWhereItWasInterrupted) {
   const SceneFolder folder;
   folder.write("a.toml", swing);
@@ -188,7 +188,7 @@ TEST(Study, OfAccuracyGoesOnWhereItWasInterrupted) {
     for (std::string line; std::getline(lines, line);) rows += line.starts_with(scene + ",") ? line + "\n" : "";
     return rows;
   };
-  // As it is after the first scene.
+  // As after the first scene.
   const std::string second = rows_of(whole, "b");
   std::string begun = whole;
   begun.erase(begun.find(second), second.size());
@@ -246,7 +246,8 @@ TEST(Study, OfValidationWritesEverythingAndGoesOn) {
   EXPECT_EQ(test::content(folder.path() / "results/validation.csv"), table);
   const Finished resumed = drape(folder, "study validation rolled-sheet pattern-stiffness --resume -o results");
   EXPECT_EQ(resumed.code, 0) << resumed.text;
-  EXPECT_EQ(test::content(folder.path() / "results/validation.csv"), table);  // the times too: nothing was measured
+  EXPECT_EQ(test::content(folder.path() / "results/validation.csv"),
+            table);  // includes the times: nothing was measured
   const Finished other = drape(folder, "study validation rolled-sheet --resume -o results");
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.text.find("is of another command: drape study validation rolled-sheet pattern-stiffness"),
@@ -278,7 +279,7 @@ TEST(Study, AnAnswerIsJudgedByItsCase) {
   EXPECT_NE(finished.text.find("4 of 4 answers are met"), std::string::npos) << finished.text;
 }
 
-// These studies would take hours: whether the results can be written is found out before.
+// These studies would take hours, so unwritable results are reported first.
 TEST(Study, LooksForItsFolderFirst) {
   const SceneFolder folder;
   folder.write("a.toml", swing);
@@ -309,7 +310,7 @@ TEST(Study, OfAccuracyLooksWhetherItCanDrawFirst) {
 
 TEST(Study, ThatIsInterruptedWritesNothing) {
   const SceneFolder folder;
-  // In the foreground timeout sends one signal; else two, and the second ends drape at once.
+  // In the foreground timeout sends one signal; otherwise two, and the second ends drape at once.
   const Finished finished = drape(folder, "study stability --per-decade 20 -o results",
                                   "timeout --foreground --preserve-status --signal=INT 3");
   EXPECT_EQ(finished.code, 130) << finished.text;

@@ -1,4 +1,4 @@
-// drape sweep and drape merge from the command line: killed, gone on with, shared out, refused.
+// drape sweep and drape merge on the command line: killed, resumed, divided, refused.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ std::vector<std::string> rows(const SceneFolder& folder, const std::string& swee
   return without_times(test::content(folder.path(sweep + "/runs.csv")));
 }
 
-/// A scene whose runs take a while, so that they can be killed within.
+/// Writes a scene whose runs take long enough to be killed.
 SceneFolder& with_scene(SceneFolder& folder) {
   folder.write("a.toml", test::swinging_scene +
                              "[sweep.vary]\ncloth.stiffness = \"10..80/8\"\n"
@@ -51,7 +51,7 @@ TEST(SweepCommand, ComesToTheSameAfterKills) {
   ASSERT_EQ(drape(folder, "sweep a.toml --steps 400 -o killed --resume --quiet").code, 0);
   EXPECT_EQ(rows(folder, "whole"), rows(folder, "killed"));
   ASSERT_EQ(rows(folder, "whole").size(), 17U);
-  // And the report alone is drawn from the folders.
+  // The report alone is recreated from the folders.
   std::filesystem::remove(folder.path("killed/runs.csv"));
   ASSERT_EQ(drape(folder, "sweep --report-only -o killed --quiet").code, 0);
   EXPECT_EQ(rows(folder, "whole"), rows(folder, "killed"));
@@ -116,7 +116,7 @@ TEST(SweepCommand, RefusesInOneMessageWithExitCode2) {
   EXPECT_NE(message("sweep --report-only -o none").find("contains no sweep"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder.path("out")));
 
-  // A folder of another program is not gone on with, and stays as it is.
+  // A folder of another program's version is not resumed, and stays unchanged.
   ASSERT_EQ(drape(folder, "sweep a.toml -o out --steps 1 --quiet").code, 0);
   std::string json = test::content(folder.path("out/sweep.json"));
   json.replace(json.find("revision "), 9, "revision x");
@@ -137,7 +137,7 @@ TEST(SweepCommand, WritesJobsForSlurm) {
   for (const char* script : {"sweep.sbatch", "merge.sbatch", "submit.sh"}) {
     EXPECT_EQ(test::run(folder, std::string("sh -n 'my out/") + script + "'").code, 0) << script;
   }
-  // A task is what a shell makes of the script.
+  // A task executes the script in a shell.
   EXPECT_EQ(test::run(folder, "for i in $(seq 16); do SLURM_ARRAY_TASK_ID=$i sh 'my out/sweep.sbatch'; done").code, 0);
   EXPECT_EQ(test::run(folder, "sh 'my out/merge.sbatch'").code, 0);
   EXPECT_EQ(rows(folder, "my out").size(), 17U);

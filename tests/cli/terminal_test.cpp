@@ -19,7 +19,7 @@ std::size_t longest_line(const std::string& text) {
   return longest;
 }
 
-/// The names below "Subcommands:" of a help.
+/// Returns the names below "Subcommands:" of a help.
 std::vector<std::string> subcommands_of(const std::string& help) {
   std::vector<std::string> names;
   const std::size_t heading = help.find("Subcommands:\n");
@@ -66,7 +66,7 @@ TEST(Terminal, AnswersWithWhatWasMeant) {
   EXPECT_EQ(refusal("simulate x.toml --max-iterations=7"),
             "drape: '--max-iterations' is a key of the scene, not an option; did you mean '--set "
             "integrator.max_iterations=7'?\n");
-  // Several tables have such a key; what is suggested fits it. doctor takes none.
+  // Several tables have such a key; the suggestion fits it. doctor takes none.
   EXPECT_EQ(refusal("render x.toml --size 640x480"),
             "drape: '--size' is a key of the scene, not an option; did you mean --set 'video.size=[640,480]' or --set "
             "'check.size=[640,480]'?\n");
@@ -146,7 +146,7 @@ TEST(Terminal, BreaksResultsBetweenWords) {
   EXPECT_LE(longest_line(at_terminal.text.substr(summary)), 81U) << at_terminal.text;  // with a carriage return
 }
 
-// A bar that is continued in the next line is not taken back by what follows it.
+// A progress bar that wrapped into a second line could not be erased.
 TEST(Terminal, ShowsProgressInOneLine) {
   const test::SceneFolder folder;
   folder.write("scene.toml", test::swinging_scene);

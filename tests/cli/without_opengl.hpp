@@ -10,8 +10,8 @@ namespace drape::test {
 inline const std::vector<std::string> osmesa_libraries{"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
 inline const std::vector<std::string> egl_libraries{"libEGL.so.1", "libEGL.so"};
 
-/// Makes files in the folder that the loader finds instead of these libraries, and that are none.
-/// @returns the assignment that makes the loader look there
+/// Makes invalid files in the folder that the loader finds instead of these libraries.
+/// @returns the assignment that makes the loader search there
 inline std::string without_libraries(const SceneFolder& folder, const std::vector<std::string>& names) {
   for (const std::string& name : names) folder.write("no/" + name, "");
   return "LD_LIBRARY_PATH='" + (folder.path() / "no").string() + "'";

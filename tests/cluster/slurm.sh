@@ -1,6 +1,6 @@
 #!/bin/sh
-# slurm.sh DRAPE: a sweep of twelve runs over two Slurm nodes on this machine, of which one is killed in the middle; submitted
-# again, merged, and compared with what one process gives. Ends with 77, skipped, unless script/cluster runs it.
+# slurm.sh DRAPE: runs a sweep of twelve runs on two Slurm nodes of this machine, one of which is killed half-way; resubmits and
+# merges it, and compares it with the result of one process. Exits with 77 (skipped) unless script/cluster runs it.
 set -eu
 drape=$1
 if [ -z "${DRAPE_CLUSTER:-}" ]; then
@@ -33,7 +33,7 @@ wait_until() { # SECONDS WHAT COMMAND...: until the command succeeds
   done
 }
 
-# A munge and a cluster of our own, beside whatever else runs on this machine: two nodes are two slurmd with ports of their own.
+# Starts its own munge and cluster, independent of others on this machine: two nodes are two slurmd with their own ports.
 mkdir munge state spool
 chmod 700 munge state
 dd if=/dev/urandom of=munge/key bs=1 count=128 2>/dev/null
@@ -116,7 +116,7 @@ echo "resubmitted after $(complete) of 12 runs"
 "$drape" sweep plan.toml -o out --slurm 4 --submit
 wait_until 240 "an empty queue again" nothing_queued
 
-# What a clock says is another every time: step_us.…, effect_shares.…, seconds, timed.
+# Measured values differ every time: step_us.…, effect_shares.…, seconds, timed.
 without_times() {
   awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) kept[i] = $i !~ /^(step_us\.|effect_shares\.|seconds$|timed$)/ }
            { line = ""; for (i = 1; i <= NF; i++) if (kept[i]) line = line $i ","; print line }' "$1"

@@ -24,7 +24,7 @@ CompareResult compare(const std::vector<Scene>& scenes, const CompareOptions& op
   return compare_scenes(scenes, options, {}, progress);
 }
 
-/// Whether a picture is somewhere within another.
+/// Returns true if a picture appears somewhere within another.
 bool contains(const cv::Mat& whole, const cv::Mat& part) {
   for (int y = 0; y + part.rows <= whole.rows; ++y) {
     for (int x = 0; x + part.cols <= whole.cols; x += 6) {
@@ -56,7 +56,7 @@ TEST(CompareScenes, ShowsEachMotionAsItsOwnFilmWould) {
   EXPECT_EQ(both.rows, comparison_info(scenes, options).height);
 }
 
-/// Chooses its direction, goes along and goes round.
+/// The camera chooses its direction, follows and orbits.
 TEST(CompareScenes, TheCameraMovesAsInTheFirstOnesFilm) {
   const test::SceneFolder folder;
   const Scene scene = folder.load(film + "[camera]\nfollow = true\norbit = 90\n");
@@ -116,7 +116,7 @@ TEST(CompareScenes, OneCameraHasAllOfThemInView) {
   options.columns = 1;
   compare(scenes, options);
   const cv::Mat both = test::read_picture(options.outputs[0]);
-  // Neither touches the sides of its panel, and the clothes stand at different places.
+  // Neither film touches the sides of its panel, and the cloths are at different places.
   for (int y = 0; y < both.rows; ++y) {
     EXPECT_EQ(both.at<cv::Vec3b>(y, 0), cv::Vec3b(255, 255, 255));
     EXPECT_EQ(both.at<cv::Vec3b>(y, both.cols - 1), cv::Vec3b(255, 255, 255));

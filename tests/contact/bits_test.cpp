@@ -1,4 +1,4 @@
-// Contact that is solved for has the same bits on every run and with any number of threads.
+// Solved contact has the same bits on every run and with any number of threads.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 class Bits : public Solved {};
 INSTANTIATE_TEST_SUITE_P(With, Bits, testing::ValuesIn(contact_methods), method_name);
 
-/// A hem folded over the rest comes down on it, and the sheet on a box and the ground.
+/// Makes a sheet on a box and the ground, with a folded hem that comes down on it.
 Cloth folded(int cells) {
   const Mesh rest = level_square(1, cells, 0);
   Mesh start = rest;

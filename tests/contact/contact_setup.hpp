@@ -24,17 +24,17 @@
 
 namespace drape::test {
 
-inline constexpr double g = 9.8;          // the default gravity [m/s²]
-inline constexpr double distance = 0.01;  // that contact keeps [m]
+inline constexpr double g = 9.8;          // default gravity [m/s²]
+inline constexpr double distance = 0.01;  // contact distance [m]
 
-/// The methods that solve for contact with the whole step.
+/// The methods that solve for contact within the whole step.
 inline constexpr std::array solving_methods{
     NamedMethod{Method::implicit, "Implicit"},
     NamedMethod{Method::liu13, "Liu13"},
     NamedMethod{Method::quasi_newton, "QuasiNewton"},
 };
 
-/// Those, the methods that give impulses, and the scheme that leaves contact to backward Euler.
+/// The solving methods, the methods with impulses, and the scheme that leaves contact to backward Euler.
 inline constexpr std::array contact_methods{
     solving_methods[0],
     solving_methods[1],
@@ -44,7 +44,7 @@ inline constexpr std::array contact_methods{
     NamedMethod{{Method::quasi_newton, TimeScheme::sdirk2}, "QuasiNewtonSdirk2"},
 };
 
-/// Has an explicit method cut its steps into the fewest that are stable.
+/// Divides the steps of an explicit method into the fewest stable substeps.
 inline SimulationSettings divided(SimulationSettings settings) {
   if (!is_explicit(settings.integrator.method)) return settings;
   settings.integrator.substeps.reset();
@@ -53,7 +53,7 @@ inline SimulationSettings divided(SimulationSettings settings) {
   return settings;
 }
 
-/// The same motion with each of its substeps as a step.
+/// Makes each substep of a motion a step.
 inline SimulationSettings in_substeps(SimulationSettings settings) {
   settings = divided(settings);
   settings.step /= settings.integrator.substep_count();
@@ -61,10 +61,10 @@ inline SimulationSettings in_substeps(SimulationSettings settings) {
   return settings;
 }
 
-/// Tests of each of them.
+/// A test of each contact method.
 class Solved : public testing::TestWithParam<NamedMethod> {
  protected:
-  /// A cloth under gravity.
+  /// Makes settings of a cloth under gravity.
   [[nodiscard]] SimulationSettings settings(Cloth cloth, double step) const {
     SimulationSettings result;
     result.cloth = std::move(cloth);
@@ -76,7 +76,7 @@ class Solved : public testing::TestWithParam<NamedMethod> {
   }
 };
 
-/// A level square around the z axis, its own rest shape.
+/// Makes a level square around the z axis, its own rest shape.
 inline Mesh level_square(double side, int cells, double height) {
   Mesh mesh = make_grid(cells, cells);
   mesh.positions *= side / 2;
@@ -84,7 +84,7 @@ inline Mesh level_square(double side, int cells, double height) {
   return mesh;
 }
 
-/// A sheet of 0.2 kg/m² of that mesh.
+/// Makes a sheet of 0.2 kg/m² from a mesh.
 inline Cloth plain_sheet(const Mesh& start, double stiffness = 180) {
   Cloth cloth = make_cloth(start, start, 1, stiffness, {});
   share_mass_by_area(0.2, cloth);
@@ -95,7 +95,7 @@ inline Ground solved_ground(double friction = 0.5, double restitution = 0) {
   return {.thickness = distance, .friction = friction, .restitution = restitution};
 }
 
-/// A box whose upper side is at that height.
+/// Makes a box with its upper side at height `top`.
 inline Body solved_box(const Eigen::Vector3d& size, double top) {
   return {.box = size, .center = Eigen::Vector3d(0, 0, top - size.z() / 2), .thickness = distance};
 }
@@ -106,7 +106,7 @@ inline Eigen::RowVector3d mean_of(const Cloth& cloth, const Vertices& values) {
   return (cloth.masses.transpose() * values) / cloth.masses.sum();
 }
 
-/// Root of the mean square of the speeds [m/s].
+/// Computes the root mean square of the speeds [m/s].
 inline double rms_speed(const Simulation& simulation) {
   const Vertices& v = simulation.state().v;
   return v.norm() / std::sqrt(static_cast<double>(v.rows()));

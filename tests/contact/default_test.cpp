@@ -1,4 +1,4 @@
-// Contact with settings that say nothing about how a step is computed: it gives no energy, and lets go.
+// Contact with default settings: it adds no energy, and releases the cloth.
 
 #include <gtest/gtest.h>
 
@@ -13,13 +13,13 @@
 namespace drape::test {
 namespace {
 
-/// Kinetic, elastic and potential energy [J].
+/// Returns the kinetic, elastic and potential energy [J].
 double total(const Simulation& simulation) {
   const Energies e = simulation.energies();
   return e.kinetic + e.gravity + e.elastic;
 }
 
-/// A sheet that falls edge first.
+/// Makes a sheet that falls edge first.
 Mesh tilted(int cells) {
   Mesh mesh = level_square(1, cells, 0);
   const Eigen::AngleAxisd about_x(60 * EIGEN_PI / 180, Eigen::Vector3d::UnitX());
@@ -30,7 +30,7 @@ Mesh tilted(int cells) {
   return mesh;
 }
 
-/// That the energy of a fall onto something at rest never rises by more than 1 % of what it can be.
+/// Expects that the energy of a fall onto a static obstacle never rises by more than 1 % of its range.
 void expect_to_lose(const SimulationSettings& settings, double seconds, const std::string& what) {
   Simulation simulation(settings);
   const double start = total(simulation);

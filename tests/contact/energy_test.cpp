@@ -1,4 +1,4 @@
-// Whole runs over all that contact can be with obstacles at rest: the total energy never rises, and nothing passes.
+// Whole runs over all kinds of contact with static obstacles: the total energy never rises, and nothing passes through.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 constexpr int cells = 12;
 constexpr double side = 1;       // of the sheets [m]
 constexpr double depth = 0.4;    // of the ground below the other obstacles [m]
-constexpr double stable = 0.01;  // the largest rise, of what the cloth has to give
+constexpr double stable = 0.01;  // largest rise, as a fraction of the cloth's available energy
 enum class Obstacle { ground, sphere, box, pole, itself };
 constexpr std::array obstacles{"ground", "sphere", "box", "pole", "itself"};
 constexpr std::array steps{0.001, 0.002, 0.005, 0.01, 0.02};     // [s]
@@ -37,10 +37,10 @@ const std::vector<Fabric>& measured_fabrics() {
   return measured;
 }
 
-/// One run of the set: all that it is made from follows from its number.
+/// One run of the set, fully determined by its number.
 struct Trial {
   int number;
-  bool impulses = false;  ///< by a method that solves for nothing
+  bool impulses = false;  ///< computed by an explicit method
 
   [[nodiscard]] Obstacle obstacle() const { return static_cast<Obstacle>(number % 5); }
   [[nodiscard]] double step() const { return steps[static_cast<std::size_t>((number / 5 + number) % 5)]; }
@@ -73,8 +73,7 @@ Mesh folded_square(double height) {
   return mesh;
 }
 
-/// The sheet in any pose, its lowest vertex so high that it touches nothing yet; folded over itself if it is to meet
-/// itself.
+/// Returns the sheet in a random pose, without initial contact; folded over itself if it is its own obstacle.
 Mesh pose(Obstacle obstacle, Random& random) {
   Mesh mesh = obstacle == Obstacle::itself ? folded_square(0) : level_square(side, cells, 0);
   const double most = obstacle == Obstacle::itself ? 0.3 : 0.5 * std::numbers::pi;
@@ -132,14 +131,14 @@ SimulationSettings make(const Trial& run) {
   }
   settings.cloth.velocities = velocities(run, settings.cloth, random);
   add_obstacle(run.obstacle(), settings.effects);
-  // What is strained at the start swings: the energy of an explicit method swings with it, by a part (hω)².
+  // A sheet strained at the start oscillates, and the energy of an explicit method with it, by a part (hω)².
   settings = in_substeps(settings);
-  // The energy of an explicit method swings by a part of (hω)², and in a cloth that is strained at the start more.
+  // The energy of an explicit method oscillates by a part of (hω)², more in an initially strained cloth.
   if (run.impulses) settings.step /= run.obstacle() == Obstacle::itself ? 4 : 2;
   return settings;
 }
 
-/// What the cloth has to give: what moves and strains it, and its fall onto the ground [J].
+/// Returns the cloth's available energy: kinetic, elastic, and that of its fall onto the ground [J].
 double to_give(const Trial& run, const SimulationSettings& settings) {
   const Energies energies = Simulation(settings).energies();
   const bool deep = run.obstacle() != Obstacle::ground && run.obstacle() != Obstacle::itself;
@@ -148,10 +147,9 @@ double to_give(const Trial& run, const SimulationSettings& settings) {
   return energies.kinetic + energies.elastic + settings.cloth.masses.sum() * g * fall;
 }
 
-/// Cloth that crumples on itself, whose steps take long.
+/// Runs with cloth that crumples on itself, whose steps are slow.
 constexpr std::array left_out{4, 19, 24, 29, 39};
-/// Of later numbers: in 83 liu13 does not finish its first step, and where its cloth would fall as a whole is beyond
-/// the pole.
+/// Later runs left out: in 83 liu13 does not finish its first step, and the cloth would fall beside the pole.
 constexpr std::array later{83};
 
 std::vector<Trial> all_runs() {

@@ -1,4 +1,4 @@
-// Coulomb's law on a slope: what holds does not creep, and what slides does so with the acceleration of a block.
+// Coulomb's law on a slope: a cloth that friction holds does not creep, and a sliding one accelerates like a block.
 
 #include <gtest/gtest.h>
 
@@ -18,14 +18,14 @@ INSTANTIATE_TEST_SUITE_P(With, Solved, testing::ValuesIn(contact_methods), metho
 
 struct Slope {
   Vector3d up, down;  // across it, and along it
-  double steepness;   // g times the sine of its angle minus what friction holds back [m/s²]
+  double steepness;   // g times the sine of its angle, less the deceleration by friction [m/s²]
 };
 Slope slope_of(double tangent) {
   const double cosine = 1 / std::sqrt(1 + tangent * tangent), sine = tangent * cosine;
   return {{sine, 0, cosine}, {cosine, 0, -sine}, g * (sine - friction * cosine)};
 }
 
-/// A sheet that lies on the slope at rest.
+/// Makes a sheet that lies on the slope at rest.
 Cloth lying(const Slope& slope) {
   Mesh mesh = level_square(0.5, 4, 0);
   for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
@@ -42,7 +42,7 @@ SimulationSettings on_slope(SimulationSettings settings, const Slope& slope) {
   return settings;
 }
 
-/// So exact that only the law is left.
+/// Makes the solves so exact that only the law remains.
 SimulationSettings exact(SimulationSettings settings) {
   if (is_explicit(settings.integrator.method)) return settings;
   settings.integrator.stop = StoppingRule::error;
@@ -50,7 +50,7 @@ SimulationSettings exact(SimulationSettings settings) {
   return settings;
 }
 
-/// How fast it moves on after 0.1 s [m/s].
+/// Returns the speed after 0.1 s [m/s].
 double creep(const SimulationSettings& settings) {
   Simulation simulation(settings);
   run(simulation, 0.1);
@@ -73,7 +73,7 @@ TEST_P(Solved, WhatLiesOnASlopeWithinTheConeDoesNotCreepByDefault) {
   }
 }
 
-/// Looks at the acceleration after 0.1 s down a slope so many times as steep as friction holds.
+/// Checks the acceleration after 0.1 s down a slope `part` times as steep as friction can hold.
 void expect_to_slide(SimulationSettings settings, double part, double error) {
   const Slope slope = slope_of(part * friction);
   Simulation simulation(std::move(settings));

@@ -1,5 +1,4 @@
-// What arrives at an obstacle or at cloth: it rebounds with its share of the speed, comes to rest, or gives its
-// momentum on.
+// Impacts on an obstacle or on cloth: a rebound with the coefficient's speed, rest, or a transfer of momentum.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +18,7 @@ using Eigen::Vector3d;
 class Impact : public Solved {};
 INSTANTIATE_TEST_SUITE_P(With, Impact, testing::ValuesIn(contact_methods), method_name);
 
-/// How high a sheet rises again that falls from 0.5 m, of that height.
+/// Returns the height of the rebound after a fall from 0.5 m, relative to that height.
 double rebound(const SimulationSettings& settings, double fall) {
   Simulation simulation(settings);
   double top = 0, before = fall;
@@ -60,7 +59,7 @@ TEST_P(Impact, ASheetThatFellOnTheGroundLiesStillAtTheContactDistance) {
   EXPECT_NEAR(simulation.state().x.col(2).minCoeff(), distance, 1e-5);
 }
 
-/// Several sheets of one cloth.
+/// Joins several sheets into one cloth.
 Mesh together(const std::vector<Mesh>& sheets) {
   Mesh all;
   for (const Mesh& sheet : sheets) {
@@ -75,7 +74,7 @@ Mesh together(const std::vector<Mesh>& sheets) {
   return all;
 }
 
-/// A level square that is turned about the z axis.
+/// Makes a level square rotated about the z axis.
 Mesh turned_square(double side, int cells, double height, double angle) {
   Mesh mesh = level_square(side, cells, height);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();

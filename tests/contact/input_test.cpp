@@ -1,4 +1,4 @@
-// Contact is accepted with every method, scheme and accuracy; keys of the push that there was are named.
+// Contact is accepted with every method, scheme and accuracy; keys of the removed push are named.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace drape::test {
 namespace {
 
-/// Looks at every effect that is contact.
+/// Checks that every contact effect is accepted.
 void expect_each_to_be_fine(const SimulationSettings& settings) {
   const Sphere ball{.center = Eigen::Vector3d(0, 0, -2), .radius = 0.4, .thickness = distance};
   for (const Effect& effect :

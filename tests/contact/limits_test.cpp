@@ -1,4 +1,4 @@
-// Limits of strain hold beside contact, and contact beside them: whatever of both a step cannot have it reports.
+// Strain limits hold together with contact: a step reports whichever of both it cannot satisfy.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ constexpr double limit = 1.05, tolerance = 1e-3;
 
 class LimitsBesideContact : public Solved {
  protected:
-  /// A sheet that falls on a crate, and hangs down from it onto itself and the ground.
+  /// Makes a sheet that falls on a crate, and hangs from it onto itself and the ground.
   [[nodiscard]] SimulationSettings crate() const {
     SimulationSettings s = settings(plain_sheet(level_square(0.8, 12, 0.35), 20), 0.01);
     s.effects.add(solved_ground());

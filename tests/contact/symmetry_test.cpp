@@ -1,4 +1,4 @@
-// Contact has no order: what is symmetric stays so, to the tolerance of the solves.
+// Contact is independent of order: a symmetric setup stays symmetric, to the tolerance of the solves.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 class Symmetry : public Solved {};
 INSTANTIATE_TEST_SUITE_P(With, Symmetry, testing::ValuesIn(contact_methods), method_name);
 
-/// The vertex on the other side of the plane y = 0, of each.
+/// Returns for each vertex its mirror image in the plane y = 0.
 std::vector<int> mirrored(const Mesh& mesh) {
   const auto key = [](double x, double y) { return std::pair(std::lround(1e6 * x), std::lround(1e6 * y)); };
   std::map<std::pair<long, long>, int> numbers;
@@ -29,7 +29,7 @@ std::vector<int> mirrored(const Mesh& mesh) {
   return others;
 }
 
-/// How far the worst vertex is from where its other one is in the mirror [m].
+/// Returns the largest distance of a vertex from the mirror image of its counterpart [m].
 double asymmetry(const Vertices& x, const std::vector<int>& others) {
   double most = 0;
   for (Eigen::Index i = 0; i < x.rows(); ++i) {

@@ -13,7 +13,7 @@
 #include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
-// What several threads find of contact, and what it does, has the bits of one, however many there are.
+// Contact search and response have the same bits for any number of threads.
 
 namespace drape::contact_threads {
 using test::same_bits;
@@ -33,7 +33,7 @@ Cloth falling_cloth() {
   return cloth;
 }
 
-/// A hem is folded over, so much above the rest, and comes down faster than a step keeps it apart.
+/// Makes a cloth with a folded hem above the rest that comes down too fast for one step to keep apart.
 Cloth folded_cloth() {
   constexpr double hem = 0.2, gap = 0.01, speed = 0.7;  // [m, m, m/s]
   Cloth cloth = flat_cloth();
@@ -55,7 +55,7 @@ State moved(SimulationSettings settings, int threads) {
   return simulation.state();
 }
 
-/// Of a motion in which the last of its effects does something.
+/// Compares motions by any number of threads, and requires that the last effect changes the motion.
 void expect_the_same_bits(SimulationSettings settings) {
   settings.integrator.max_iterations = 2;
   const State alone = moved(settings, 1);
@@ -76,7 +76,7 @@ TEST(ContactByThreads, OfAClothWithItselfHasTheSameBits) {
   expect_the_same_bits(settings);
 }
 
-/// Under most of the cloth, and through it where it is highest in the first step.
+/// Makes a body under most of the cloth that intersects it at its highest points in the first step.
 Body hilly_body() {
   MeshMotion hills{.mesh = make_grid(9, 7)};
   for (Eigen::Index i = 0; i < hills.mesh.positions.rows(); ++i) {
@@ -92,7 +92,7 @@ TEST(ContactByThreads, OfABodyHasTheSameBits) {
   expect_the_same_bits(settings);
 }
 
-// One that changes its shape, whose push is solved for, and from which the cloth bounces.
+// A deforming body, whose contact is solved, and from which the cloth bounces.
 TEST(ContactByThreads, OfADeformingBodyHasTheSameBits) {
   Body body = hilly_body();
   MeshMotion motion = *body.mesh;

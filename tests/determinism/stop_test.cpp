@@ -1,4 +1,4 @@
-// A step that is told to end is as if it had not begun, wherever that happens.
+// A step that is stopped leaves the state as if it had not begun, wherever it stops.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Stopped, testing::ValuesIn(all_methods), method_nam
 
 constexpr int some_steps = 5;
 
-/// Says yes once, when it is asked for the k-th time, and counts.
+/// A stop request at the k-th query only; counts queries.
 struct Question {
   long asked = 0, yes_at = 0;
 
@@ -32,7 +32,7 @@ struct Question {
   }
 };
 
-/// A cloth that falls, and one by one what may act on it; all of it at last.
+/// Makes a falling cloth with each possible effect alone, and with all of them.
 std::vector<SimulationSettings> cloths(Solver solver) {
   const MovingPins pins{.pins = {0, 6}, .keyframes = {{.time = 0.02, .value = {0, 0, 0.1}}}, .release = 0.015};
   const std::vector<Effect> all{
@@ -69,7 +69,7 @@ void expect_bits(const State& state, const State& expected) {
   EXPECT_TRUE(same_bits(state.v, expected.v));
 }
 
-/// The states of a motion, from its start on.
+/// Returns the states of a motion from its start.
 std::vector<State> motion_of(const SimulationSettings& settings, const Stop& stop) {
   Simulation simulation(settings, Timing::none, stop);
   std::vector<State> states{simulation.state()};
@@ -83,7 +83,7 @@ std::vector<State> motion_of(const SimulationSettings& settings, const Stop& sto
 TEST_P(Stopped, WhereverItIsTheStateIsThatBeforeTheStepAndTheRestTheSame) {
   const std::vector<SimulationSettings> all = cloths(GetParam());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    // From here on the safe step is known, for which a first simulation asks too.
+    // This run computes the safe step, which also queries, so that it is known afterwards.
     const State last = motion_of(all[i], {}).back();
     Question never;
     const std::vector<State> states = motion_of(all[i], never.stop());
@@ -126,7 +126,7 @@ TEST_P(Stopped, AStepIsTakenBack) {
   }
 }
 
-/// What takes long asks often: in every iteration…
+// Long computations query often: in every iteration…
 TEST_P(Stopped, EveryIterationOfASolverAsks) {
   SimulationSettings settings = homework(GetParam(), GetParam().is_explicit() ? 0.001 : 0.02, 500);
   settings.effects.add(Gravity{});
@@ -139,7 +139,7 @@ TEST_P(Stopped, EveryIterationOfASolverAsks) {
   }
 }
 
-/// …and sweep.
+// …and sweep.
 TEST(StoppedFilters, EverySweepAndPassAsks) {
   const auto asked_in_a_step = [](const Effect& effect) {
     SimulationSettings settings = setup(cloth_of(make_grid(6, 6), 1, 50, {0, 6}), Method::semi_implicit, 0.005);
@@ -156,7 +156,7 @@ TEST(StoppedFilters, EverySweepAndPassAsks) {
   EXPECT_GE(asked_in_a_step(body), 3) << "a round, its passes and the search after it";
 }
 
-/// A large cloth takes long before its first step.
+/// Setting up a large cloth takes long and can be stopped too.
 TEST(StoppedSetUp, IsInterruptedToo) {
   for (const Method method : {Method::semi_implicit, Method::liu13}) {
     Question question{.asked = 0, .yes_at = 2};

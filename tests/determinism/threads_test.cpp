@@ -20,7 +20,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
 
-// What several threads compute together has the bits of one, however many there are.
+// Results computed by several threads have the same bits for any number of threads.
 
 namespace drape::test {
 namespace {
@@ -30,7 +30,7 @@ constexpr std::array counts{2, 3, 8};
 
 Cloth large_cloth() { return cloth_of(make_grid(cells, cells), 1, 180, {0, cells}); }
 
-/// The same cloth with its vertices in no order: hardly two springs join vertices that are equally far apart.
+/// Makes the same cloth with shuffled vertex numbers: hardly two springs have the same distance of indices.
 Cloth shuffled_cloth() {
   const Mesh grid = make_grid(cells, cells);
   std::vector<int> places(static_cast<std::size_t>(grid.positions.rows()));
@@ -67,7 +67,7 @@ TEST(Threads, ComputeEveryPartOnce) {
   }
 }
 
-// A part may wait for those before it: they have begun. One that waited for ever would keep the test from ending.
+// A part may wait for earlier parts, which have begun. A deadlock would keep the test from ending.
 TEST(Threads, BeginPartsInTheirOrder) {
   const Threads threads(3);
   std::vector<std::atomic<bool>> done(100);
@@ -112,7 +112,7 @@ TEST(Threads, SumVectorsToTheSameBits) {
   }
 }
 
-/// A pass of each kind over a cloth's springs.
+/// One pass of each kind over a cloth's springs.
 struct SpringPasses {
   Vertices gradient, moved, velocities, product;
   Eigen::Matrix<double, Eigen::Dynamic, 6> diagonal;
@@ -155,7 +155,7 @@ void expect_the_same_bits(const Cloth& cloth) {
 
 TEST(Threads, ComputeSpringsToTheSameBits) {
   Cloth cloth = large_cloth();
-  // Some that are in no band, and more parts than a band's offset leaves whole.
+  // Adds springs outside all bands, and more parts than a band's offset leaves whole.
   cloth.springs.push_back({.i = 5, .j = cloth.vertex_count() - 7, .rest_length = 1, .stiffness = 10});
   expect_the_same_bits(cloth);
 }
@@ -185,7 +185,7 @@ TEST(Threads, SolveToTheSameBits) {
   }
 }
 
-// Cloth so large that a step is solved in patches, too.
+// A cloth so large that a step is also solved in patches.
 TEST(Threads, SettlePatchesToTheSameBits) {
   SimulationSettings settings = setup(cloth_of(make_grid(142, 142), 1, 180, {0, 142}), Method::quasi_newton, 0.02);
   settings.integrator.stop = StoppingRule::error;
@@ -199,7 +199,7 @@ TEST(Threads, SettlePatchesToTheSameBits) {
   EXPECT_TRUE(same_bits(run(3).x, run(1).x));
 }
 
-/// A few steps of a cloth that is thrown at a sphere.
+/// Returns the state of a cloth thrown at a sphere after a few steps.
 State thrown(Cloth cloth, const NamedMethod& method, int count) {
   SimulationSettings settings = setup(std::move(cloth), method, 0.0005);
   settings.cloth.velocities.rowwise() = Eigen::RowVector3d(0.5, 0, -6);
@@ -210,7 +210,7 @@ State thrown(Cloth cloth, const NamedMethod& method, int count) {
     for (int step = 0; step < 3; ++step) simulation.step();
     return simulation.state();
   }
-  // Without the search for the safe step, which takes most of a simulation's time here.
+  // Skips the search for the safe step, which would take most of the time here.
   const Threads threads(count);
   const System system = make_system(settings, nullptr, {}, threads);
   State state{.x = settings.cloth.positions, .v = settings.cloth.velocities, .step = 0};
@@ -253,7 +253,7 @@ TEST(Threads, OfGustyAirGiveTheSameBits) {
   }
 }
 
-// What is asked to spare others may compute alone at any time: nobody can tell when.
+// With background priority, threads may be dropped at any unpredictable time.
 TEST(Threads, ThatSpareOthersGiveTheSameBits) {
   const Vertices a = random_vertices(20'000, 1), b = random_vertices(20'000, 2);
   const double product = dot(one_thread(), a, b);

@@ -15,7 +15,8 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/synthetic_film.hpp"
 
-// Animated pictures are read by others: WebP by libwebp's own decoder, APNG by FFmpeg's, and its clock from its chunks.
+// Independent readers of animated pictures: libwebp's decoder for WebP, FFmpeg's for APNG, whose times come from its
+// chunks.
 
 using namespace drape;
 using namespace drape::test;
@@ -24,7 +25,7 @@ namespace {
 
 struct Shown {
   std::vector<Image> frames;
-  std::vector<double> ends;  // when each frame's time is over [s]
+  std::vector<double> ends;  // end of each frame's time [s]
   std::uint32_t repetitions = 0;
 };
 
@@ -49,7 +50,7 @@ Shown read_webp(const std::string& bytes) {
   return shown;
 }
 
-/// What is shown at a moment.
+/// Returns the picture shown at a time.
 const Image& frame_at(const Shown& shown, double time) {
   const auto next = std::upper_bound(shown.ends.begin(), shown.ends.end(), time);
   return shown.frames.at(static_cast<std::size_t>(std::min(next, shown.ends.end() - 1) - shown.ends.begin()));
@@ -111,13 +112,13 @@ TEST_P(Animation, ShowsTheFilm) {
       EXPECT_EQ(seen.pixels, frame.pixels) << k;
     } else {
       EXPECT_GT(psnr(frame, seen), 30) << k;
-      // Another frame must be farther away, or the bound says nothing.
+      // Another frame must be farther away, or the bound is meaningless.
       EXPECT_LT(psnr(synthetic_frame(k + 8, 241, 199), seen), 22) << k;
     }
   }
 }
 
-/// A soft shadow that passes over a ground with lines, at the foot of a cloth of hard edges that comes to rest.
+/// Makes a frame of a soft shadow that crosses a ground with lines, below a sharp-edged cloth that comes to rest.
 Image shadow_frame(int k, int width, int height) {
   Image image(width, height);
   const double middle = 20 + 3.0 * k, cloth = std::min(40.0 + 2 * k, 100.0);
@@ -136,7 +137,7 @@ Image shadow_frame(int k, int width, int height) {
   return image;
 }
 
-/// By how much at most a film is off where nothing has moved for so many frames.
+/// Returns the largest error of a film where nothing has moved for `still` frames.
 int residual(const Shown& film, const std::vector<Image>& drawn, double fps, int still) {
   int worst = 0;
   for (int k = still; k < static_cast<int>(drawn.size()); ++k) {
@@ -152,9 +153,9 @@ int residual(const Shown& film, const std::vector<Image>& drawn, double fps, int
   return worst;
 }
 
-// A pixel that is at rest is right, as in a GIF: nothing that has passed leaves traces.
+// A resting pixel is correct, as in a GIF: moving objects leave no traces.
 TEST_P(Animation, LeavesNothingWhereAShadowWas) {
-  // Where a frame is too short to be cut in two, what lossy compression leaves is put right every twelfth frame.
+  // If frames are too short to be split, errors of lossy compression are corrected every twelfth frame.
   for (const auto& [fps, still] : {std::pair{25.0, 4}, std::pair{60.0, 17}}) {
     std::vector<Image> drawn;
     const auto animation = encoder(fps);
@@ -182,11 +183,11 @@ TEST_P(Animation, OfWhatRestsIsSmall) {
   EXPECT_LT(content(file()).size(), 40'000U);
 }
 
-// Frame k ends at (k + 1)/fps, to the millisecond: the rounding does not add up.
+// Frame k ends at (k + 1)/fps, to the millisecond: rounding errors do not accumulate.
 TEST_P(Animation, ShowsEveryFrameAtItsTime) {
   for (const double fps : {25.0, 30.0, 60.0, 12.5}) {
     const auto animation = encoder(fps);
-    for (int k = 0; k < 40; ++k) {  // of which none is like the one before, with which libwebp would merge it
+    for (int k = 0; k < 40; ++k) {  // all different, because libwebp merges equal frames
       animation->add(
           plain_image(32, 16, {static_cast<std::uint8_t>(k % 2 * 255), static_cast<std::uint8_t>(6 * k), 0}));
     }
@@ -211,7 +212,7 @@ TEST_P(Animation, MayRestAWhile) {
   const auto animation = encoder();
   for (int k = 0; k < 10; ++k) animation->add(synthetic_frame(k / 5, 64, 48));
   animation->finish();
-  EXPECT_NEAR(shown().ends.back(), 0.4, 0.001);  // however many frames it has
+  EXPECT_NEAR(shown().ends.back(), 0.4, 0.001);  // for any number of frames
 }
 
 TEST_P(Animation, LeavesTheOldFileAndNothingElseWithoutFinish) {

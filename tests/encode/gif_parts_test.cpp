@@ -21,7 +21,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Every pixel has a colour of its own, but for the share of one colour, strewn evenly.
+/// Makes an image of distinct colours, with a share of evenly scattered pixels of one colour.
 Image noise_with(std::uint32_t color, int percent, std::uint32_t seed) {
   Image image(100, 100);
   std::mt19937 random(seed);
@@ -83,7 +83,7 @@ TEST(ColorCut, KeepsFewColorsAsTheyAre) {
 }
 
 TEST(ColorCut, FindsTheMeansOfClustersFarApart) {
-  // Two levels to each side of a centre, the same number of pixels on both.
+  // Two levels on each side of a centre, with equal numbers of pixels.
   std::vector<gif::ColorCount> colors;
   std::set<std::uint32_t> centers;
   for (std::uint32_t r = 0; r < 3; ++r) {
@@ -115,7 +115,7 @@ TEST(GifPalette, HoldsNoColorOfNoiseExactly) {
 }
 
 TEST(GifPalette, GivesAHueThatFewFramesShowColorsOfItsOwn) {
-  // A grey and yellow film of many shades, in which 3 pixels of 10 000 are a shaded red.
+  // A film of many grey and yellow shades, in which 3 of 10 000 pixels are a shaded red.
   gif::ColorHistogram histogram;
   std::mt19937 random(1);
   Image image(1000, 1000);
@@ -134,7 +134,7 @@ TEST(GifPalette, GivesAHueThatFewFramesShowColorsOfItsOwn) {
   }
   histogram.add(image);
   const gif::Palette palette = gif::make_palette(histogram);
-  // Shades of 200 levels by 16 colours or more: none is farther off than half of what lies between two of them.
+  // 200 levels are covered by 16 colours or more: none is farther off than half of the gap between two of them.
   for (const std::uint32_t color : reds) {
     int least = 256;
     for (std::size_t i = 1; i < palette.colors.size(); ++i) {
@@ -147,8 +147,8 @@ TEST(GifPalette, GivesAHueThatFewFramesShowColorsOfItsOwn) {
   }
 }
 
-// A dither as high as the distance of the palette's colours takes each of the two that a colour lies between in its
-// share of the pixels, and no other.
+// A dither with the amplitude of the palette's gap mixes the two colours around a colour in proportion, and uses no
+// other.
 TEST(OrderedDither, MixesTheTwoColorsAroundEach) {
   constexpr int gap = 6, size = 64;
   gif::Palette palette;

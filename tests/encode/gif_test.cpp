@@ -98,7 +98,7 @@ TEST_F(Gif, ShowsAnEvenBackgroundExactlyInEveryPixelOfEveryFrame) {
 }
 
 TEST_F(Gif, DoesNotFlickerWhereNothingMoves) {
-  // A soft gradient, which is dithered, and a picture in front that never moves, beside a film.
+  // A soft gradient, which is dithered, and a static picture in front, beside a film.
   constexpr int width = 240, height = 200;
   std::vector<Image> film = synthetic_film(20, width, height);
   for (Image& image : film) {
@@ -109,7 +109,7 @@ TEST_F(Gif, DoesNotFlickerWhereNothingMoves) {
   write(film);
   const std::vector<Image> shown = decoded_film(path("x.gif"));
   ASSERT_EQ(shown.size(), film.size());
-  // What a frame shows a little off may be put right in the next one, even where its original is the same by chance.
+  // A slightly wrong pixel may be corrected in the next frame, even if its original happens to stay the same.
   const auto rests = [&film](std::size_t k, int x, int y) {
     for (const auto& [dx, dy] : {std::pair{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
       const int column = std::clamp(x + dx, 0, width - 1), row = std::clamp(y + dy, 0, height - 1);
@@ -131,11 +131,11 @@ TEST_F(Gif, DoesNotFlickerWhereNothingMoves) {
     }
   }
   EXPECT_EQ(changes, 0);
-  EXPECT_GT(resting, 19 * 60 * height);  // more than what never moves
+  EXPECT_GT(resting, 19 * 60 * height);  // more than the static pixels
 }
 
 TEST_F(Gif, PutsAFrameRightWhenItIsShownAgain) {
-  // Noise costs so many bytes that pixels are shown as others, for one frame.
+  // Noise takes so many bytes that pixels get wrong colours, for one frame.
   std::vector<Image> film;
   std::uint32_t random = 1;
   for (int k = 0; k < 12; ++k) {
@@ -157,7 +157,7 @@ TEST_F(Gif, PutsAFrameRightWhenItIsShownAgain) {
     return most;
   };
   EXPECT_GT(most_off(film.size() - 2), 20) << "nothing is to be put right";
-  EXPECT_LE(most_off(film.size() - 1), 6);  // 4, weighted by how much a channel makes of the brightness
+  EXPECT_LE(most_off(film.size() - 1), 6);  // 4, weighted by the channel's share of brightness
 }
 
 TEST_F(Gif, IsExactForAFilmOfFewColors) {
@@ -184,7 +184,7 @@ TEST_F(Gif, IsCloseToTheFilm) {
 }
 
 TEST_F(Gif, FollowsASoftGradientWithinTwoLevels) {
-  // On the average over 8×8 pixels, the period of the dither.
+  // On average over 8×8 pixels, the period of the dither.
   Image gradient(256, 64);
   for (int y = 0; y < 64; ++y) {
     const int band = y / 16;
@@ -247,7 +247,7 @@ TEST_F(Gif, LeavesTheOldFileAndNothingElseWithoutFinish) {
 
 TEST_F(Gif, LeavesTheOldFileOnAFullDisk) {
   put(path("x.gif"), "old");
-  // The first limits hit the frames that are kept until the end, the last ones the GIF itself.
+  // The first limits affect the stored frames, the last ones the GIF itself.
   for (const rlim_t bytes : {100, 20'000, 200'000}) {
     const FileSizeLimit limit(bytes);
     try {

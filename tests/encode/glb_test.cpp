@@ -1,4 +1,4 @@
-// Binary glTF: its chunks, and positions that are read back as glTF says.
+// Binary glTF: its chunks, and positions read back by the specification.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ class Glb : public InScratchFolder {
     film.uvs = &uvs;
   }
 
-  /// Three frames, in which the cloth may rise, and a ball.
+  /// Writes three frames, in which the cloth may rise, and a ball.
   void write(double rise) {
     film.expected_frames = 3;
     GlbWriter writer(path("x.glb"), film);
@@ -51,7 +51,7 @@ class Glb : public InScratchFolder {
     binary = bytes.substr(28 + size);
   }
 
-  /// The x, y and z of an accessor's first three numbers.
+  /// Returns x, y and z of an accessor's first element.
   [[nodiscard]] Eigen::Vector3f first_of(int accessor) const {
     const Json& of = json["accessors"][static_cast<std::size_t>(accessor)];
     const Json& view = json["bufferViews"][of["bufferView"].get<std::size_t>()];
@@ -81,7 +81,7 @@ TEST_F(Glb, HasAMorphTargetForEachFrameAfterTheFirst) {
   EXPECT_EQ(first_of(primitive["attributes"]["NORMAL"]), Eigen::Vector3f(0, 0, 1));
   EXPECT_EQ(json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()]["count"], 9);
   const Json& animation = json["animations"][0];
-  EXPECT_EQ(animation["channels"].size(), 2U);  // the cloth's weights, and the ball's place
+  EXPECT_EQ(animation["channels"].size(), 2U);  // the cloth's weights, and the ball's position
   EXPECT_EQ(animation["channels"][1]["target"]["path"], "translation");
   EXPECT_EQ(json["buffers"][0]["byteLength"].get<std::size_t>() / 4, binary.size() / 4);
 }

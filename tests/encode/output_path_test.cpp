@@ -54,11 +54,11 @@ TEST(PathTemplate, RefusesSingleBraces) {
             "a '}' without '{' in the output path a}.gif; write '}}' for a brace");
 }
 
-/// A name for every form there is, of a film and of a sequence.
+/// Returns file names for all formats, of films and sequences.
 std::vector<std::string> every_name() {
   std::vector<std::string> names;
   for (const OutputFormat& format : output_formats()) {
-    if (format.of_steps()) continue;  // a run writes it
+    if (format.of_steps()) continue;  // written by the run itself
     names.push_back("x" + format.extension);
     if (format.file_per_frame()) names.push_back("{frame}" + format.extension);
   }

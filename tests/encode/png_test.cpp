@@ -1,4 +1,4 @@
-// PNG files that libpng makes and reads for us, beside OpenCV, which reads them as well.
+// PNG files written and read by libpng, compared with OpenCV's reader.
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -55,7 +55,7 @@ std::string chunk(const std::string& kind, const std::string& data) {
   return number(static_cast<std::uint32_t>(data.size())) + body + number(static_cast<std::uint32_t>(sum));
 }
 
-/// A PNG of noise, of one of the kinds that the format has.
+/// Makes a PNG of noise, of one of the format's kinds.
 std::string png_of_kind(int color, int bits, Random& random) {
   constexpr int width = 13, height = 5;
   const int channels = std::array{1, 0, 3, 1, 2, 0, 4}[static_cast<std::size_t>(color)];
@@ -103,7 +103,7 @@ TEST(Png, ReadsEveryKindAsOpenCVDoes) {
   }
 }
 
-// None is half a picture, and nothing is printed.
+// Damaged files give no partial picture, and nothing is printed.
 TEST(Png, OfWhatIsDamagedThereIsNoPicture) {
   Random random(7);
   const std::vector<std::uint8_t> bytes = png_from_bgr(noise(20, 20, random));
@@ -117,7 +117,7 @@ TEST(Png, OfWhatIsDamagedThereIsNoPicture) {
       damaged[static_cast<std::size_t>(random.below(static_cast<int>(damaged.size())))] =
           static_cast<std::uint8_t>(random.below(256));
     }
-    const cv::Mat picture = bgr_from_png(view(damaged));  // of another size, or whole where it is the same byte
+    const cv::Mat picture = bgr_from_png(view(damaged));  // another size is possible; whole if the byte is unchanged
     if (damaged == bytes) {
       EXPECT_FALSE(picture.empty());
     }

@@ -1,4 +1,4 @@
-// Libraries that have something to say about a picture are kept from it, and nobody else is.
+// Libraries' own messages about a picture are suppressed, and no other output is.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 TEST(Quiet, LosesNothingOfWhatOthersPrintMeanwhile) {
   std::vector<std::uint8_t> bytes = png_from_bgr(cv::Mat::zeros(8, 8, CV_8UC3));
-  bytes.resize(bytes.size() - 16);  // of which OpenCV's libpng would say that it ends too soon
+  bytes.resize(bytes.size() - 16);  // OpenCV's libpng would report a premature end
   const std::string_view damaged(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   constexpr int lines = 20000;
   ::testing::internal::CaptureStderr();

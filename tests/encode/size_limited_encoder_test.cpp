@@ -23,8 +23,8 @@ constexpr double full_rate = 40;
 
 class SizeLimitedEncoder : public InScratchFolder {
  protected:
-  /// @param limit  absent: as large as it becomes
-  /// @param stride of the frames that there are, at a rate with which they play for as long
+  /// @param limit  absent: unlimited
+  /// @param stride step between used frames; the rate keeps the duration
   OutputFile write(const std::string& name, std::optional<FileLimit> limit, int width = full_width,
                    int stride = 1) const {
     FilmInfo film{.scene = "test", .fps = full_rate / stride};
@@ -36,7 +36,7 @@ class SizeLimitedEncoder : public InScratchFolder {
     }
     return encoder->finish().at(0);
   }
-  /// Of the whole film, and of one with smaller pictures or fewer of them.
+  /// Returns the size of the whole film, or of one with smaller or fewer pictures.
   [[nodiscard]] std::uint64_t size_of(const std::string& extension, int width = full_width, int stride = 1) const {
     return write("sized" + extension, {}, width, stride).size;
   }
@@ -58,7 +58,7 @@ TEST_F(SizeLimitedEncoder, IsTheLargestThatFits) {
     EXPECT_EQ(fitted.size, std::filesystem::file_size(path("fitted" + extension)));
     const int width = std::stoi(fitted.note);
     EXPECT_LT(width, full_width);
-    // What is a hundredth wider, or a pixel, does not fit: that was tried.
+    // A film that is one percent or one pixel wider does not fit.
     const int wider = width + std::max(1, width / 100);
     bool some_does_not = false;
     for (int w = width + 1; w <= wider; ++w) some_does_not |= size_of(extension, w) > largest;
@@ -90,8 +90,13 @@ TEST_F(SizeLimitedEncoder, HasTheHighestRateThatFitsWhereItKeepsItsSize) {
   }
 }
 
+<<<<<<< HEAD:tests/encode/size_limited_encoder_test.cpp
 /// Half the width first, then a quarter of the rate at half the width or more, then less.
 TEST_F(SizeLimitedEncoder, GivesUpSizeThenRateThenSize) {
+=======
+/// First half the width, then a quarter of the rate at half the width or more, then a smaller width.
+TEST_F(SizeLimitedEncoder, GivesUpSizeThenRateThenSize) {
+>>>>>>> w4tmp:tests/encode/fitted_film_test.cpp
   const std::uint64_t half = size_of(".gif", full_width / 2), slow = size_of(".gif", full_width / 2, 4);
   ASSERT_GT(half, slow);
   EXPECT_EQ(write("x.gif", FileLimit{half}).note.find("frames"), std::string::npos);

@@ -40,7 +40,7 @@ TEST_P(Video, HasEveryFrameCloseToTheFilm) {
   for (int k = 0; k < 30; ++k) {
     const Image frame = synthetic_frame(k, 240, 200);
     EXPECT_GT(psnr(frame, shown[k]), 27) << k;
-    // Another frame must be farther away, or the bound says nothing.
+    // Another frame must be farther away, or the bound is meaningless.
     EXPECT_LT(psnr(synthetic_frame(k + 8, 240, 200), shown[k]), 22) << k;
   }
 }
@@ -60,8 +60,8 @@ TEST_P(Video, HasTheRateItIsGiven) {
   }
 }
 
-// Frame k is shown at k/fps, to the millisecond in which WebM counts. Of the last frames, which a decoder of H.264
-// keeps back until the end, OpenCV does not say when.
+// Frame k is shown at k/fps, to WebM's millisecond. OpenCV does not report times of the last frames, which an H.264
+// decoder keeps back until the end.
 TEST_P(Video, ShowsEveryFrameAtItsTime) {
   constexpr int frames = 100;
   for (const double fps : {25.0, 12.5, 60.0}) {
@@ -75,7 +75,7 @@ TEST_P(Video, ShowsEveryFrameAtItsTime) {
 }
 
 TEST_P(Video, MayBeSmallAndSlow) {
-  // Which VP8 makes nothing of: its bit rate rounds to nothing.
+  // VP8 alone makes an empty file: its bit rate rounds to zero.
   for (const double fps : {0.2, 0.05}) {
     const auto video =
         make_encoder(file(), {.scene = "test", .fps = fps, .expected_frames = 3, .width = 17, .height = 16});

@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// Calls a reader of input. It may return, or throw a refusal with a message; anything else ends the program.
+/// Calls a reader of input. It may return or throw a refusal with a message; everything else ends the program.
 template <class Refusal = UsageError, class Read>
 void accepts_or_refuses(Read&& read) {
   try {

@@ -1,5 +1,4 @@
-// Checkpoints beside a motion that grows: as the bytes of one, and as changes of the parts of a good one, whose
-// checksums are right afterwards.
+// Checkpoints beside a growing motion: as raw bytes, and as edits of a valid one with corrected checksums.
 
 #include "tests/fuzz/accepts_or_refuses.hpp"
 #include "tests/fuzz/sealed_motion.hpp"

@@ -1,5 +1,5 @@
-// Motion files: as the bytes of one, as one made of their parts, and as changes of the parts of a good one, since
-// hardly any change of bytes that have a checksum and are packed can be read.
+// Motion files: as raw bytes, as assembled parts, and as edits of a valid one, because random changes of compressed
+// bytes with checksums are rarely readable.
 
 #include <cmath>
 
@@ -27,8 +27,8 @@ void read(const drape::FuzzFolder& folder, std::string_view bytes) {
   });
 }
 
-/// A file of parts that say their tag in four bytes and their size in one: blocks with checksums, packed as they should
-/// be. What is "INDX" becomes the index of the blocks before it.
+/// Assembles a file of parts, each with a tag of four bytes and a size of one: compressed blocks with checksums. A part
+/// "INDX" becomes the index of the blocks before it.
 std::string assembled(std::string_view parts) {
   std::string bytes = drape::motion_magic;
   std::uint64_t index = 0;

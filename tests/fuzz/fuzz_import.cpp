@@ -1,4 +1,4 @@
-// Motions of other programs: the reader is chosen by the first bytes, as the formats have them.
+// Motions of other programs: the first bytes select the reader, as in the formats.
 
 #include <fstream>
 #include <string>
@@ -44,7 +44,7 @@ void read_all(drape::MotionSource& motion) {
   }
 }
 
-/// The readers that want a file.
+/// Runs the readers that need a file.
 void read_file(const std::string& bytes, const std::string& ending) {
   static const drape::TemporaryFolder folder("drape-fuzz");
   const std::filesystem::path name = folder.path() / ("motion" + ending);

@@ -26,7 +26,7 @@ void read(std::string_view bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   read(bytes);
-  // Hardly any change of a text leaves its checksum right.
+  // Random changes of a text rarely leave its checksum valid.
   drape::accepts_or_refuses<std::invalid_argument>([&] { read(drape::sealed_manifest(bytes)); });
   return 0;
 }

@@ -1,5 +1,5 @@
-// motion.bin of a golden: as the bytes of the file, and as the words that are packed in it, since hardly any change of
-// packed bytes can be unpacked.
+// motion.bin of a golden: as raw bytes, and as the words compressed in it, because random changes of compressed bytes
+// are rarely readable.
 
 #include <cstring>
 #include <stdexcept>
@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Of two vertices and three windows with two pictures.
+/// Describes two vertices and three windows with two pictures.
 drape::Golden described() {
   drape::Golden golden;
   golden.vertex_count = 2;
@@ -31,7 +31,7 @@ void read(std::string_view bytes) {
       if (!window.start.x.allFinite() || !window.start.v.allFinite() || !window.middle.allFinite()) std::abort();
       if (window.start.x.rows() != 2 || window.start.v.rows() != 2) std::abort();
     }
-    // What can be read can be written, and says the same.
+    // Readable content can be written and read again unchanged.
     drape::Golden again = described();
     drape::unpack_motion(drape::pack_motion(golden), again);
     if (again.windows.back().start.x != golden.windows.back().start.x) std::abort();

@@ -1,4 +1,4 @@
-// check.cbor of a shard of a check, whose checksum is right, and the reports that are made of it.
+// check.cbor of a check's shard with a valid checksum, and the reports made of it.
 
 #include "check/archive.hpp"
 #include "check/html_report.hpp"

@@ -1,4 +1,4 @@
-// ASCII USD, as a mesh, as a mesh that moves and as a motion.
+// ASCII USD, as a mesh, as a moving mesh and as a motion.
 
 #include "scene/usd/mesh.hpp"
 #include "scene/usd/motion.hpp"

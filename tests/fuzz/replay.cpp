@@ -1,4 +1,4 @@
-// Runs files, and the files in folders, through a fuzz target, where the compiler has no fuzzer.
+// Runs files, and the files in folders, through a fuzz target, for compilers without a fuzzer.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 // NOLINTNEXTLINE(readability-redundant-declaration): the target may be compiled as one with this file
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-// NOLINTNEXTLINE(bugprone-exception-escape): what is thrown is what is looked for
+// NOLINTNEXTLINE(bugprone-exception-escape): an escaping exception is a finding
 int main(int argc, char** argv) {
   std::vector<fs::path> files;
   for (int i = 1; i < argc; ++i) {
@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
     std::printf("%s\n", file.c_str());
-    std::fflush(stdout);  // the last name is that of the culprit
+    std::fflush(stdout);  // the last name is that of the failing input
     std::ifstream stream(file, std::ios::binary);
     if (!stream) return 1;
     const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

@@ -39,7 +39,7 @@ class FuzzFolder {
   std::filesystem::path path_ = std::filesystem::temp_directory_path() / ("drape-fuzz-" + std::to_string(getpid()));
 };
 
-/// A small motion that is complete, and what it was before: the growing file and its checkpoint, with all parts.
+/// A small complete motion and its earlier form: the growing file with its checkpoint, with all parts.
 struct SealedMotion {
   std::string complete, growing, checkpoint;
 
@@ -72,8 +72,8 @@ struct SealedMotion {
   }
 };
 
-/// A file whose parts are changed as a fuzzer says: a block, a place in it of two bytes, and which bits of the byte
-/// there. Sizes and checksums are right again afterwards.
+/// Edits a file as a fuzzer requests: a block, a two-byte position in it, and the bits to flip in that byte. Restores
+/// sizes and checksums.
 inline std::string with_edits(std::string_view file, std::string_view edits) {
   constexpr std::size_t most = 64, edit_size = 4;
   test::OpenedBlocks blocks(file);

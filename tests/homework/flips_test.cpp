@@ -7,7 +7,7 @@
 namespace drape::test {
 namespace {
 
-/// The mean number of flipped pairs over the report's 417 steps of Liu13, k = 180, h = 0.02 s.
+/// Returns the mean number of flipped pairs over the report's 417 steps of Liu13, k = 180, h = 0.02 s.
 double flipped_pairs_per_frame(double tolerance) {
   SimulationSettings settings = homework(Method::liu13, 0.02, 180);
   settings.integrator.tolerance = tolerance;

@@ -11,12 +11,12 @@ namespace drape::test {
 namespace {
 
 constexpr double reach = 0.44;
-constexpr double nearest_allowed = 0.37;  // the homework's own code comes as near as 0.377
+constexpr double nearest_allowed = 0.37;  // the homework's own code reaches 0.377
 
 double nearest(const Vertices& x) { return (x.rowwise() - homework_sphere_center).rowwise().norm().minCoeff(); }
 
-/// The cloth lies on the sphere: its middle is above the sphere's, a vertex touches the sphere near the top, and
-/// vertices touch it on all four sides of the top.
+/// Checks that the cloth lies on the sphere: its middle is above the sphere's centre, and vertices touch the sphere
+/// near the top and on all four sides of it.
 testing::AssertionResult lies_on_sphere(const Vertices& x) {
   constexpr int middle = 220;
   if (x(middle, 2) < homework_sphere_center[2]) return testing::AssertionFailure() << "its middle is below";
@@ -41,7 +41,7 @@ SimulationSettings table2(Method method, double step) {
   return settings;
 }
 
-/// Runs to the end; from 2 s on, the fall being over, the cloth must lie on the sphere.
+/// Runs to the end; after the fall, from 2 s on, the cloth must lie on the sphere.
 void expect_covered_to_the_end(SimulationSettings settings, int steps) {
   Simulation simulation(std::move(settings));
   double least = reach;
@@ -64,7 +64,7 @@ TEST(Table2, SemiImplicitKeepsTheClothOnTheSphere) {
 
 TEST(Table2, Liu13KeepsTheClothOnTheSphere) { expect_covered_to_the_end(table2(Method::liu13, 0.02), homework_steps); }
 
-// The implicit method slides off sooner or later, as in the homework, which looks at its first 167 steps.
+// The implicit method eventually slides off, as in the homework, which shows its first 167 steps.
 TEST(Table2, ImplicitNeverSinksIn) {
   Simulation simulation(table2(Method::implicit, 0.02));
   double least = reach;

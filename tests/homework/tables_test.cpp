@@ -1,4 +1,4 @@
-// The iteration counts of the homework's tables 1 and 3: they do not depend on the machine.
+// Iteration counts of the homework's tables 1 and 3, which are independent of the machine.
 
 #include <gtest/gtest.h>
 
@@ -31,14 +31,13 @@ TEST(Table1, ImplicitTakesNoMoreIterations) {
 
 class Table3 : public testing::TestWithParam<Row> {};
 
-// The local/global alternation is the same sequence of iterates in every implementation that holds its pins, up to
-// rounding.
+// The local/global alternation gives the same iterates in every implementation with exact pins, up to rounding.
 TEST_P(Table3, Liu13TakesAsManyIterations) {
   const Row row = GetParam();
   EXPECT_NEAR(mean_iterations(Method::liu13, 180, row.tolerance), row.liu13, 0.01 * row.liu13);
 }
 
-// What a Newton iteration does with compressed springs is open, so better than the table is right, too.
+// The report leaves the Hessian of compressed springs open, so fewer iterations than the table's are correct too.
 TEST_P(Table3, ImplicitTakesNoMoreIterations) {
   const Row row = GetParam();
   const double mean = mean_iterations(Method::implicit, 180, row.tolerance);

@@ -6,7 +6,7 @@
 namespace drape {
 namespace {
 
-/// The smallest GIF: one transparent pixel.
+/// Returns the smallest GIF: one transparent pixel.
 std::string one_pixel() {
   const unsigned char bytes[] =
       "GIF89a\1\0\1\0\x80\0\0\0\0\0\xff\xff\xff!\xf9\4\1\0\0\0\0,\0\0\0\0\1\0\1\0\0\2\2D\1\0;";
@@ -15,7 +15,7 @@ std::string one_pixel() {
 
 class AccuracyPage : public test::InBrowser {
  protected:
-  /// The page of a short study of a small cloth.
+  /// Returns the page of a short study of a small cloth.
   std::string page() {
     const auto file = path("small.toml");
     put(file,

@@ -14,7 +14,7 @@ using test::Browser;
 
 class CheckPage : public test::InBrowser {
  protected:
-  /// How much of the actual picture the slider shows, in percent from the left.
+  /// Returns the visible share of the actual picture beside the slider, in percent from the left.
   double split() {
     return std::stod(browser_
                          ->run("return getComputedStyle(document.querySelector('.moment:not([hidden]) .stage'))"
@@ -48,7 +48,7 @@ TEST_F(CheckPage, ShowsFailedScenesFirst) {
        {"drape accept out/check", "drape accept out/check 5", "drape bless scenes/homework/new.toml"}) {
     EXPECT_NE(std::find(commands.begin(), commands.end(), line), commands.end()) << line;
   }
-  // What is not judged is hatched, and where the golden comes from is said first.
+  // Unjudged parts are hatched, and the golden's origin comes first.
   EXPECT_GT(browser_->run("return document.querySelectorAll('main .ignored').length"), 0);
   EXPECT_EQ(browser_->run("return document.querySelector('main .findings li').textContent")
                 .get<std::string>()
@@ -71,7 +71,7 @@ TEST_F(CheckPage, SliderMovesByMouseAndByKey) {
   browser_->run("const s = document.querySelector('.moment:not([hidden]) .split'); s.value = 10;");
   browser_->click(".moment:not([hidden]) .split");  // in its middle
   EXPECT_NEAR(split(), 50, 1);
-  // What is left of the line is the expected picture: the actual one is cut away there.
+  // Left of the line is the expected picture: the actual one is clipped there.
   EXPECT_EQ(
       browser_->run("return getComputedStyle(document.querySelector('.moment:not([hidden]) .actual .frame')).clipPath"),
       browser_->run(
@@ -92,7 +92,7 @@ TEST_F(CheckPage, KeysChooseViewAndFrame) {
   browser_->press(".");
   EXPECT_EQ(shown_moment(), "2");
   browser_->press(",,,");
-  EXPECT_EQ(shown_moment(), "3");  // round and round
+  EXPECT_EQ(shown_moment(), "3");  // wraps around
   browser_->press(".");
   EXPECT_EQ(shown_moment(), "0");
   browser_->press(Browser::arrow_right);  // as in every group of radio buttons

@@ -12,7 +12,7 @@ namespace {
 TEST(CheckArchive, HoldsAllThatReportsAreMadeOf) {
   const CheckReport whole = test::sample_check(true);
   ASSERT_GE(whole.scenes.size(), 3U);
-  // Two shards: the first scene and the last, and those between.
+  // Two shards: the first and last scene, and the others.
   std::vector<CheckShard> shards(2);
   for (CheckShard& shard : shards) {
     shard = {.report = whole, .places = {}, .scenes = whole.scenes.size(), .whole = false};

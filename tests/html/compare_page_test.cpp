@@ -31,7 +31,7 @@ class ComparePage : public test::InBrowser {
     return comparison_page(result, moments, encode_png(Image(700, 60)), "drape compare a.toml b.toml");
   }
 
-  /// Of the pictures that are seen: which moment they are of.
+  /// Returns the moments of the visible pictures.
   nlohmann::json shown() {
     return browser_->run(
         "return [...document.querySelectorAll('.shown-moment')].filter((m) => m.checkVisibility())"
@@ -79,7 +79,7 @@ TEST_F(ComparePage, SaysInWhatTheMotionsDiffer) {
       (nlohmann::json{"integrator.method", "liu13", "implicit"}));
   EXPECT_EQ(browser_->run("return document.querySelector('.film figure:nth-child(2) figcaption').textContent"),
             "implicit <exact>");
-  // Wide enough, the motions stand side by side; else below one another.
+  // In a wide window the motions are side by side; otherwise one below the other.
   const char* tops = "return [...document.querySelectorAll('.film figure')].map((f) => f.getBoundingClientRect().top)";
   const auto wide = browser_->run(tops);
   EXPECT_EQ(wide.at(0), wide.at(1));

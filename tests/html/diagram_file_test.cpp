@@ -10,10 +10,10 @@
 namespace drape {
 namespace {
 
-/// SVG files as a browser shows them.
+/// SVG files in a browser.
 class DiagramFile : public test::InBrowser {
  protected:
-  /// Every word is within the picture, and none is over another.
+  /// Checks that every word is within the picture, and none overlaps another.
   void expect_legible(const html::Diagram& diagram) {
     open(html::svg_file(diagram), "diagram.svg");
     EXPECT_EQ(browser_->console_problems(), std::vector<std::string>());

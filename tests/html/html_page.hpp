@@ -9,8 +9,8 @@
 
 namespace drape::test {
 
-/// Opens pages in a headless Chromium, which all tests of a process share; skipped where there is none. A picture of
-/// each is kept in the folder that DRAPE_SCREENSHOTS names, for people to look at.
+/// Opens pages in a headless Chromium shared by all tests of a process; skipped without one. Screenshots for inspection
+/// go to the folder DRAPE_SCREENSHOTS.
 class InBrowser : public InScratchFolder {
  protected:
   void SetUp() override {
@@ -26,8 +26,8 @@ class InBrowser : public InScratchFolder {
     browser_->open(path(name));
   }
 
-  /// What every page must hold: nothing in the console, nothing from elsewhere, every picture there, every control with
-  /// a name, no sideways scrolling however narrow the window is.
+  /// Checks the requirements of every page: an empty console, no requests, all pictures loaded, every control named, no
+  /// sideways scrolling at any width.
   void expect_sound() {
     EXPECT_EQ(browser_->console_problems(), std::vector<std::string>());
     EXPECT_EQ(browser_->requests(), std::vector<std::string>());
@@ -47,7 +47,7 @@ class InBrowser : public InScratchFolder {
     }
   }
 
-  /// Pictures of the page as it is now: narrow and wide, light and dark, and on paper.
+  /// Saves screenshots of the current page: narrow and wide, light and dark, and on paper.
   void keep_screenshots(const std::string& name) {
     const char* folder = std::getenv("DRAPE_SCREENSHOTS");
     if (folder == nullptr) return;

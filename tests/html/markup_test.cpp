@@ -21,7 +21,7 @@ TEST(Markup, EscapesTextAndAttributes) {
   EXPECT_EQ(Markup(std::string("a\0b", 3)).html(),
             "a\xEF\xBF\xBD"
             "b");
-  EXPECT_EQ(Markup("\xFF").html(), "\xEF\xBF\xBD");  // the name of a file need not be UTF-8
+  EXPECT_EQ(Markup("\xFF").html(), "\xEF\xBF\xBD");  // a file name need not be UTF-8
 }
 
 TEST(Markup, ReplacesWhatIsNotUtf8) {
@@ -31,7 +31,7 @@ TEST(Markup, ReplacesWhatIsNotUtf8) {
   EXPECT_EQ(escape("\xc0\xaf!"), none + none + "!");                 // overlong
   EXPECT_EQ(escape("\xed\xa0\x80"), none + none + none);             // half of a surrogate pair
   EXPECT_EQ(escape("\xf4\x90\x80\x80"), none + none + none + none);  // beyond U+10FFFF
-  EXPECT_EQ(escape("\xef\xbf\xbe"), none + none + none);             // no character, which XML forbids
+  EXPECT_EQ(escape("\xef\xbf\xbe"), none + none + none);             // noncharacter, forbidden in XML
   EXPECT_EQ(escape("\xe2\x88"), none + none);                        // cut off
 }
 
@@ -131,7 +131,7 @@ TEST(AxisMap, KeepsAPlaceForZeroOnALogarithmicAxis) {
   EXPECT_EQ(axis.ticks().front().label, "0");
 }
 
-/// Where a level's label stands in a chart of one curve: "end" or "start", its x and its base, and where its line is.
+/// Returns the place of a level's label in a chart of one curve: "end" or "start", x and base, and y of its line.
 std::array<std::string, 4> place_of_label(const std::vector<std::array<double, 2>>& points, double level) {
   Chart chart{.title = "t", .x_title = "x", .y_title = "y", .series = {}, .levels = {{level, "the limit here"}}};
   chart.series.push_back({"a", {}, false});
@@ -146,12 +146,12 @@ std::array<std::string, 4> place_of_label(const std::vector<std::array<double, 2
 }
 
 TEST(Chart, PutsNoLabelAcrossACurve) {
-  // A curve that runs level and then, on the right, through the line's label: it stands on the left of that.
+  // A curve that is level and then crosses the label's line on the right: the label is left of that.
   const auto usual = place_of_label({{0, 0}, {1, 0}}, 0.5);
   EXPECT_EQ(usual[0], "end");
   const auto crossed = place_of_label({{0, 0}, {0.8, 0}, {0.9, 1}, {1, 0}}, 0.5);
   EXPECT_TRUE(crossed[0] == "start" && std::stod(crossed[1]) < 420) << crossed[1];
-  // One that runs along the line, just above it: the label is below.
+  // A curve along the line, just above it: the label is below.
   const auto along = place_of_label({{0, 0.52}, {1, 0.52}, {1, 0}, {1, 1}}, 0.5);
   EXPECT_GT(std::stod(along[2]), std::stod(usual[2])) << along[2];
 }
@@ -186,7 +186,7 @@ TEST(AxisMap, HoldsOneValueOrNone) {
   }
 }
 
-/// CIE L*a*b* of a colour, "#cc4400", as eyes see it whose cones turn linear RGB into this.
+/// Returns CIE L*a*b* of a colour such as "#cc4400", as seen by eyes whose cones transform linear RGB by `eyes`.
 std::array<double, 3> seen_as(const std::string& color, const std::array<std::array<double, 3>, 3>& eyes) {
   std::array<double, 3> linear{}, seen{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -203,8 +203,8 @@ std::array<double, 3> seen_as(const std::string& color, const std::array<std::ar
   return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
-// Machado, Oliveira and Fernandes 2009, severity 1. A difference of 2.3 is just noticeable side by side; thin curves
-// apart from each other take several times that.
+// Machado, Oliveira and Fernandes 2009, severity 1. A difference of 2.3 is just noticeable side by side; thin, separate
+// curves need several times that.
 TEST(Colours, OfMethodsDifferForColourBlindEyes) {
   constexpr std::array<std::array<double, 3>, 3> protanope{
       {{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}};

@@ -1,4 +1,4 @@
-// Pages to turn a cloth, as a browser decodes and draws them.
+// Interactive pages of a cloth, decoded and drawn by a browser.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ class MotionPage : public test::InBrowser {
     film.look = &look;
   }
 
-  /// A cloth that swings and stretches, above a ball that falls, a body that turns, and a ground.
+  /// Makes a frame of a cloth that swings and stretches, above a falling ball, a turning body, and a ground.
   [[nodiscard]] Frame frame(int k) const {
     const double t = 0.1 * k;
     Frame frame{.index = k, .time = t, .positions = cloth.positions};
@@ -47,7 +47,7 @@ class MotionPage : public test::InBrowser {
     return frame;
   }
 
-  /// Writes all frames and opens the page once its player is there.
+  /// Writes all frames and opens the page, waiting for its player.
   template <class FrameAt>
   void write(const FrameAt& at) {
     HtmlWriter writer(path("motion.html"), film);
@@ -73,7 +73,7 @@ class MotionPage : public test::InBrowser {
     return std::stod(of_turn("dataset." + name).get<std::string>());
   }
 
-  /// The coordinates of a mesh in a frame as the page has them.
+  /// Returns a mesh's positions in a frame as decoded by the page.
   [[nodiscard]] Vertices decoded(int mesh, int k) const {
     const auto all = browser_->run(
         "const m = document.querySelector('.turn').player.motion;"
@@ -85,7 +85,7 @@ class MotionPage : public test::InBrowser {
   }
   [[nodiscard]] double precision() const { return of_turn("player.motion.precision").get<double>(); }
 
-  /// The number of pixels of the picture in which a colour channel is far above both others.
+  /// Counts the picture's pixels in which a colour channel is far above both others.
   [[nodiscard]] int pixels_of(int channel) const {
     return browser_->run(
         "const from = document.querySelector('.turn canvas'), to = document.createElement('canvas');"
@@ -134,7 +134,7 @@ TEST_F(MotionPage, HasPositionsToHalfItsPrecision) {
   EXPECT_EQ(of_turn("player.motion.balls[10][2]").get<float>(), static_cast<float>(-0.8 - 0.2 * 1.0));
 }
 
-// However the numbers jump, they are those that were packed.
+// Any numbers are decoded correctly, however they jump.
 TEST_F(MotionPage, HasAnyMotionToHalfItsPrecision) {
   std::vector<Vertices> x;
   test::Random random(7);
@@ -218,7 +218,7 @@ TEST_F(MotionPage, ColoursByStretch) {
   keep_screenshots("motion-stretch");
 }
 
-/// A texture whose upper half is green and whose lower half is blue, on a cloth that has it turned at one corner.
+/// A texture with a green upper half and a blue lower half, on a cloth with shifted coordinates at one corner.
 TEST_F(MotionPage, ShowsATexture) {
   Image picture(300, 300);
   for (int y = 0; y < 300; ++y) {
@@ -228,7 +228,7 @@ TEST_F(MotionPage, ShowsATexture) {
   look.texture = path("picture.png");
   std::vector<std::array<float, 2>> uvs = grid.uvs;
   film.uvs = &uvs;
-  uvs[0] = {0.5F, 0.5F};  // so that its vertex has two
+  uvs[0] = {0.5F, 0.5F};  // gives its vertex two coordinates
   write([this](int k) { return Frame{.index = k, .time = 0.1 * k, .positions = cloth.positions}; });
   expect_sound();
   browser_->set_width(1200);
@@ -236,7 +236,7 @@ TEST_F(MotionPage, ShowsATexture) {
   EXPECT_GT(green, 3000);
   EXPECT_GT(blue, 3000);
   EXPECT_EQ(pixels_of(0), 0) << "the plain colour is covered";
-  // v upwards, along +y, which is away from the viewer at −60°: the upper half is behind, and looks smaller.
+  // v points along +y, away from the viewer at −60°: the upper half is farther away and looks smaller.
   EXPECT_LT(green, blue);
   browser_->run("document.querySelector('.turn canvas').focus()");
   browser_->press("c");

@@ -11,7 +11,7 @@
 #include "output/png_encoder.hpp"
 #include "tests/html/html_page.hpp"
 
-// What a page looks like on paper, in a narrow window, and in somebody's clipboard.
+// Pages on paper, in a narrow window, and in the clipboard.
 
 namespace drape::html {
 namespace {
@@ -25,13 +25,13 @@ class Paper : public test::InBrowser {
     browser_->set_width(paper_width);
   }
 
-  /// How many elements of a selector are seen.
+  /// Counts the visible elements of a selector.
   int seen(const std::string& selector) {
     return browser_->run("return [...document.querySelectorAll('" + selector +
                          "')].filter((e) => e.getClientRects().length).length");
   }
 
-  /// What a press of the button leaves in the clipboard.
+  /// Returns the clipboard's content after a press of the button.
   std::string copied(const std::string& selector) {
     browser_->run(
         "Object.defineProperty(navigator, 'clipboard', { configurable: true, value: { writeText: async (t) => { "
@@ -50,7 +50,7 @@ Markup wide_table() {
   return table(wide);
 }
 
-/// Two curves on one another, a third apart.
+/// Makes a chart of three curves, two of which coincide.
 Chart sample_chart() {
   Chart chart{"What three methods cost.", "step [s]", "error [m]", Scale::logarithmic, Scale::logarithmic, {}, {}};
   for (const auto& [name, factor] : {std::pair("implicit", 1.0), std::pair("liu13", 1.0), std::pair("verlet", 8.0)}) {
@@ -98,8 +98,8 @@ TEST_F(Paper, ShowsTheStillsOfAnAnimation) {
   EXPECT_EQ(seen("img[src^=\"data:image/png\"]"), 1);
 }
 
-/// Has the page run through columns of the size of a sheet, which are broken as sheets are, and gives the column that
-/// each element of a selector begins in.
+/// Lays the page out in columns of the size of a sheet, which break as sheets do, and returns the column in which each
+/// element of a selector begins.
 std::vector<int> columns_of(test::Browser& browser, const std::string& selector) {
   return browser.run(
       "document.body.style.cssText = 'width: 688px; height: 980px; max-width: none; margin: 0; column-width: 688px; "
@@ -119,7 +119,7 @@ TEST_F(Paper, FillsItsFirstSheet) {
     moment.expected = moment.actual = moment.difference = moment.error_map = encode_png(Image(320, 240));
     moment.worst = {{10, 10}};
   }
-  // As a check's page begins.
+  // Begins as a check's page does.
   open_page(wide_table() + section(2, "a", "A scene",
                                    findings({{Tone::bad, "It changed."}}) + command("Again", "drape") +
                                        comparison("pictures", moments, 0)));
@@ -185,7 +185,7 @@ TEST_F(Paper, TakesDiagramsFromTheClipboard) {
   open_page(chart(sample_chart()));
   const std::string svg = copied("[data-form=SVG]");
   EXPECT_NE(svg.find("xmlns=\"http://www.w3.org/2000/svg\""), std::string::npos);
-  EXPECT_NE(svg.find("stroke: rgb("), std::string::npos);  // no style sheet goes with it
+  EXPECT_NE(svg.find("stroke: rgb("), std::string::npos);  // the file has no style sheet
   EXPECT_EQ(svg.find("data-label"), std::string::npos);
 }
 
@@ -228,7 +228,7 @@ TEST_F(Paper, SaysWhichCurveLiesBeneathAnother) {
             "implicit (beneath liu13),liu13,verlet");
 }
 
-// Boxes of text have room for letters with tails below, which digits do not have.
+// Text boxes have room for descenders, which digits lack.
 TEST_F(Paper, LabelsOfAnAxisDoNotCollideInANarrowWindow) {
   Chart long_labels = sample_chart();
   for (ChartSeries& series : long_labels.series) {

@@ -36,7 +36,7 @@ class Camera {
   Simulation simulation_;
 };
 
-/// The absolute difference, and a stand-in for the error map, which has its own tests.
+/// Compares by the absolute difference, a stand-in for the error map, which has its own tests.
 FrameResult compared(int number, const Image& expected, const Image& actual) {
   FrameResult frame;
   frame.frame = number;
@@ -72,7 +72,7 @@ FrameResult compared(int number, const Image& expected, const Image& actual) {
   return frame;
 }
 
-/// Changes the picture: 0 not at all, 1 by a rounding, from 2 on by a square that grows.
+/// Changes the picture: 0 not at all, 1 by a rounding, from 2 on by a growing square.
 Image changed(Image image, int how) {
   for (int y = 100; y < 100 + 6 * how - 6; ++y) {
     for (int x = 140; x < 140 + 6 * how - 6; ++x) image.at(x, y)[2] = 200;
@@ -81,7 +81,7 @@ Image changed(Image image, int how) {
   return image;
 }
 
-/// @param growth of a deviation per step, from 1e-16 m; 0: the same bits
+/// @param growth factor of a deviation per step, from 1e-16 m; 0: the same bits
 WindowResult window(int index, double growth, double tolerance) {
   WindowResult w;
   w.first_step = std::int64_t{20} * index;

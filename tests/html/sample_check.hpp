@@ -4,8 +4,8 @@
 
 namespace drape::test {
 
-/// The report of a check of three scenes, with pictures that drape drew.
-/// @param failing one scene changed and one had no golden; else all are as they were
+/// Makes the report of a check of three scenes, with drawn pictures.
+/// @param failing true: one scene changed and one had no golden; false: all passed
 CheckReport sample_check(bool failing);
 
 }  // namespace drape::test

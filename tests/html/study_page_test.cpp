@@ -37,7 +37,7 @@ HomeworkStudy sample_study() {
   return study;
 }
 
-/// A report with a cloth of 2×2 cells that turns about an edge.
+/// Makes a report with a cloth of 2×2 cells that turns about an edge.
 StudyReport report_with_motion() {
   Scene scene;
   const Mesh grid = make_grid(2, 2);
@@ -119,7 +119,7 @@ TEST_F(StudyPage, ArrowKeysGoFromPointToPoint) {
   EXPECT_EQ(tip(), "");
 }
 
-// The browser reports a scroll later than it happens: also after the key that shows a point's values.
+// The browser reports a scroll with a delay, even after the key that shows a point's values.
 TEST_F(StudyPage, ValuesStayWithTheirPointWhileThePageScrolls) {
   open(to_page(homework_report(sample_study())));
   browser_->run("document.querySelector('.chart > svg').focus()");

@@ -9,7 +9,7 @@ namespace {
 
 class SweepPage : public test::InBrowser {
  protected:
-  /// Of eight runs with films of eleven frames, two of which are refused.
+  /// Returns the page of eight runs with films of eleven frames, two of which are refused.
   std::string page() {
     put(path("a.toml"), test::tiny_scene);
     SweepRequest request = test::request_of(
@@ -19,7 +19,7 @@ class SweepPage : public test::InBrowser {
     return sweep_page(test::sweep(request, {.folder = path("out"), .shard = {}}), path("out"));
   }
 
-  /// How far each strip is moved, from left and top, in pictures.
+  /// Returns the displacement of each strip from left and top, in pictures.
   nlohmann::json moved() {
     return browser_->run(
         "return [...document.querySelectorAll('.strip')].map((s) => { const a = s.getBoundingClientRect(), b = "
@@ -38,7 +38,7 @@ TEST_F(SweepPage, PlaysAllFilmsInStep) {
   expect_sound();
   const std::size_t films = moved().size();
   EXPECT_GE(films, 4U);
-  // Until they are played, each shows another picture than the first, which all have in common.
+  // Before playing, each shows another picture than the first, which is the same for all.
   const nlohmann::json posters =
       browser_->run("return [...document.querySelectorAll('.strip')].map((s) => Number(s.dataset.poster))");
   const nlohmann::json shown = moved();

@@ -11,7 +11,7 @@
 #include "watch/server.hpp"
 #include "watch/session.hpp"
 
-// A page that shows a scene while it is edited, as somebody sees it who changes a colour, makes a mistake and mends it.
+// A page that shows a scene while it is edited: a colour changes, a mistake is made and corrected.
 
 namespace drape::watched_scene {
 namespace {
@@ -33,7 +33,7 @@ struct Watched {
 
 class WatchPage : public test::InBrowser {
  protected:
-  /// Waits until an expression of the page is true, for a minute at most.
+  /// Waits until an expression of the page is true, for at most a minute.
   void wait_for(const std::string& condition) {
     for (int i = 0; i < 600; ++i) {
       if (browser_->run("return Boolean(" + condition + ")").get<bool>()) return;
@@ -42,7 +42,7 @@ class WatchPage : public test::InBrowser {
     FAIL() << condition << ": " << browser_->run("return document.body.innerText").get<std::string>();
   }
 
-  /// The colour in the middle of the film's picture, red, green, blue.
+  /// Returns the colour in the middle of the film's picture: red, green, blue.
   std::vector<int> middle() {
     return browser_->run(
         "const film = document.getElementById('film'), canvas = document.createElement('canvas');"
@@ -115,7 +115,7 @@ TEST(WatchServer, AnswersNobodyWhoNamesAnotherPlace) {
   EXPECT_THROW(WatchServer(session, port), OutputError);
 }
 
-/// Opens a connection that says nothing.
+/// Opens a connection without sending anything.
 int connect_silently(int port) {
   const int connection = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in place{};
@@ -126,7 +126,7 @@ int connect_silently(int port) {
   return connection;
 }
 
-// Browsers open connections ahead of time, and keep them.
+// Browsers open connections ahead of time and keep them.
 TEST(WatchServer, AnswersBesideConnectionsThatSayNothing) {
   const WatchSession session("none.toml", {}, GlBackend::automatic, {});
   const WatchServer server(session, 0);

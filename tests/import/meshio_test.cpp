@@ -1,4 +1,4 @@
-// Files that meshio and numpy have written, where Debian's python3-meshio is installed.
+// Files written by meshio and numpy, if Debian's python3-meshio is installed.
 
 #include <gtest/gtest.h>
 

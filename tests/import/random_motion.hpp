@@ -15,7 +15,7 @@
 
 namespace drape::test {
 
-/// Frames of a cloth of any places, and something beside it that rests or moves.
+/// Frames of a cloth with random positions, and a static or moving collider.
 struct RandomMotion {
   Cloth cloth;
   std::vector<std::array<float, 2>> uvs;
@@ -24,7 +24,7 @@ struct RandomMotion {
 
   explicit RandomMotion(std::uint64_t seed) {
     Random random(seed);
-    for (int i = 0; i < 20; ++i) random.number();  // near seeds begin alike
+    for (int i = 0; i < 20; ++i) random.number();  // generators of nearby seeds begin alike
     const Mesh grid = make_grid(1 + random.below(4), 1 + random.below(4));
     cloth = make_cloth(grid, grid, 1, 10, {});
     uvs = grid.uvs;
@@ -46,7 +46,7 @@ struct RandomMotion {
       }
       frames.push_back(std::move(frame));
     }
-    // Last, so that seeds go on meaning the same motions.
+    // Comes last, so that existing seeds keep their motions.
     if (random.below(2) == 0) return;
     const Eigen::Vector3d normal = random.below(2) == 0 ? Eigen::Vector3d::UnitZ() : random_point(random).normalized();
     const GroundShape ground{.normal = normal, .height = random.between(-3, 3)};
@@ -62,7 +62,7 @@ struct RandomMotion {
     return film;
   }
 
-  /// Writes it with a sink of one file.
+  /// Writes the motion with a sink of one file.
   template <class Writer>
   void write_film(const std::string& file) const {
     Writer writer(file, info());
@@ -70,7 +70,7 @@ struct RandomMotion {
     writer.finish(Ending::complete);
   }
 
-  /// Writes it with what makes a file of each frame, NAME-0000.EXT.
+  /// Writes the motion to one file per frame, NAME-0000.EXT.
   void write_frames(const std::string& before, const std::string& ending,
                     const std::function<std::string(const Frame&)>& bytes) const {
     for (const Frame& frame : frames) {

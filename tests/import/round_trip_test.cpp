@@ -1,4 +1,4 @@
-// What drape has written comes back: to the bit where the format can hold it, else to its precision.
+// Motions written by drape are read back: with all bits if the format can hold them, otherwise to its precision.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ void expect_near(const Vertices& found, const Vertices& expected, Precision prec
 
 class RoundTrip : public InScratchFolder {
  protected:
-  /// Imports a file and compares what comes with what was written.
+  /// Imports a file and compares it with the written motion.
   void expect_back(const RandomMotion& motion, const std::string& name, Precision precision, bool with_velocities,
                    std::optional<double> fps = {}) {
     SCOPED_TRACE(name);
@@ -81,7 +81,7 @@ TEST_F(RoundTrip, OfAnyMotionInAnyFormatKeepsWhatTheFormatHolds) {
   for (std::uint64_t seed = 1; seed <= 6 && !HasFailure(); ++seed) expect_all_back(1000 + 77 * seed);
 }
 
-/// Fifty more.
+/// Fifty more motions.
 class RoundTripOf : public RoundTrip, public testing::WithParamInterface<int> {};
 
 TEST_P(RoundTripOf, AnyMotionInAnyFormatKeepsWhatTheFormatHolds) {
@@ -90,7 +90,7 @@ TEST_P(RoundTripOf, AnyMotionInAnyFormatKeepsWhatTheFormatHolds) {
 
 INSTANTIATE_TEST_SUITE_P(Nightly, RoundTripOf, testing::Range(0, 50));
 
-/// The colliders of a kind, in their order.
+/// Returns the colliders of a kind in their order.
 template <class Shape>
 std::vector<Shape> shapes_of(const std::vector<Collider>& colliders) {
   std::vector<Shape> shapes;
@@ -100,9 +100,9 @@ std::vector<Shape> shapes_of(const std::vector<Collider>& colliders) {
   return shapes;
 }
 
-/// Spheres, grounds and bodies come back.
-/// @param rounding of a coordinate [m]
-/// @param tilted   of the numbers of a ground that is not level
+/// Expects spheres, grounds and bodies back.
+/// @param rounding rounding error of a coordinate [m]
+/// @param tilted   rounding error of the numbers of a tilted ground
 template <class Writer>
 void expect_things_back(const std::string& name, const std::string& file, double rounding, double tilted) {
   int bodies = 0, balls = 0, grounds = 0;

@@ -1,4 +1,4 @@
-// Files of other programs, and files that are wrong: one message each.
+// Files of other programs, and invalid files: one message each.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST_F(Strangers, HaveQuadsAndAsciiAndBigEndianNumbers) {
   EXPECT_EQ(read("c.vtk").triangles, 2);
 }
 
-/// A quad that bends is divided along its shorter diagonal, which becomes the other one.
+/// A bending quad is divided along its shorter diagonal, which changes during the motion.
 TEST_F(Strangers, HaveQuadsThatBend) {
   const std::string face = "f 1//1 2//1 3//1 4//1\n";
   put("q/0.obj", "v 0 0 0\nv 1 0 0\nv 0.9 0.9 0\nv 0 1 0\nvn 0 0 1\n" + face);
@@ -81,7 +81,7 @@ TEST_F(Strangers, HaveTimesOfTheirOwn) {
   EXPECT_NEAR(reader.state(1).v(0, 2), 10, 1e-9);  // (4 − 0)/0.4 s
 }
 
-/// The samples of a USD file are read when they are needed; what is wrong with one is said with its place.
+/// The samples of a USD file are read when needed; errors name their place.
 TEST_F(Strangers, AreToldWhatIsWrongWithASample) {
   const std::string first = "  0: [(0, 0, 0), (1, 0, 0), (0, 1, 0)],\n";
   const auto motion = [](const std::string& samples) {
@@ -202,15 +202,15 @@ TEST_F(Strangers, AreToldWhatIsWrongWithNumpysArrays) {
   expect_refused("back.npz", "times");
   put_npz("none.npz", {faces});
   expect_refused("none.npz", "expected the arrays positions and faces, found faces.npy");
-  std::string many = content(path("good.npz"));  // ten million vertices, of which there are three
+  std::string many = content(path("good.npz"));  // claims ten million vertices but has three
   const std::string shape = "'shape': (2, 3, 3,), }", larger = "'shape': (2, 9999999, 3,), }";
   ASSERT_NE(many.find(shape), std::string::npos);
-  many.replace(many.find(shape), larger.size(), larger);  // of the spaces behind it
+  many.replace(many.find(shape), larger.size(), larger);  // replaces spaces behind it
   put("many.npz", many);
   expect_refused("many.npz", "damaged or cut short");
 }
 
-/// Cuts and damages of files are a message or a motion, and never anything else.
+/// Truncated and damaged files give a message or a motion, and nothing else.
 TEST_F(Strangers, MayBeDamagedAnywhere) {
   const RandomMotion motion(3);
   motion.write_film<NpzWriter>(path("a.npz"));

@@ -1,4 +1,4 @@
-# Writes a motion of two frames with meshio and numpy, in the forms that these have.
+# Writes a motion of two frames with meshio and numpy, in their formats.
 import os
 import sys
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# outside.sh BUILD SOURCE: installs a build into a folder of its own and builds other people's projects against it.
-# Ends with 1, and says why, where one of them does not build or computes something else than the program that was installed.
+# outside.sh BUILD SOURCE: installs a build into its own folder and builds outside projects against it. Exits with 1 and the
+# reason if a project fails to build or computes other results than the installed program.
 set -eu
 build=$1 source=$2
 scratch=$(mktemp -d)
@@ -21,7 +21,7 @@ expect() { # FOUND EXPECTED
   case $1 in $2) ;; *) echo "outside.sh: expected $2, found $1" && exit 1 ;; esac
 }
 
-# The project of docs/library.md: its files are the blocks after a mark with their name.
+# The project of docs/library.md: its files are the blocks after a comment with their name.
 mkdir "$scratch/page"
 for file in CMakeLists.txt main.cpp; do
   sed -n "/^<!-- file: $file -->\$/,/^\`\`\`\$/p" "$source/docs/library.md" | sed '1,2d;$d' >"$scratch/page/$file"
@@ -43,7 +43,7 @@ public=$(sed -n '/^set(public_headers/,/)$/p' "$source/cmake/Package.cmake" | gr
 grep -q " $public examples" "$scratch/examples.log" || { echo "outside.sh: not every public header begins with an example" && exit 1; }
 expect "$("$scratch/examples/picture")" 'middle 1 0, corner 0 255'
 
-# The Python module, where it was built: what it needs is found beside it, a texture's decoder as well.
+# The Python module, if it was built: it finds its dependencies beside it, including a texture's decoder.
 for packages in "$scratch"/prefix/lib/python3*/dist-packages; do
   [ -d "$packages" ] || continue
   expect "$(PYTHONPATH=$packages "${PYTHON:-/usr/bin/python3}" -c '
@@ -53,7 +53,7 @@ simulation.step(5)
 print(drape.data_folder(), drape.render(simulation, size=(64, 48)).shape)' "$scene")" "$scratch/prefix/share/drape (48, 64, 3)"
 done
 
-# Nothing of an installed tree may name the one it was built in.
+# Installed files must not name the build tree.
 if grep -rl "$source" "$scratch/prefix/lib" "$scratch/prefix/include" --include='*.cmake' --include='*.hpp'; then
   echo "outside.sh: these files name the source tree" && exit 1
 fi

@@ -8,7 +8,7 @@
 #include "run/run_scene.hpp"
 #include "tests/support/scene_folder.hpp"
 
-// Captions are read by tesseract, which knows nothing of what they should say.
+// Captions are read by tesseract, which does not know their text.
 
 namespace drape::interop_captions {
 namespace {
@@ -19,7 +19,7 @@ class Captions : public ::testing::Test {
     if (std::getenv("DRAPE_INTEROP") == nullptr) GTEST_SKIP() << "script/interop installs the readers and runs this";
   }
 
-  /// What tesseract reads in the last picture of a film, without spaces.
+  /// Returns the text that tesseract reads in the last picture of a film, without spaces.
   std::string read(const std::string& caption, const std::string& language, const std::string& look) const {
     const std::string picture = folder_.path("picture.png");
     const std::string text =

@@ -1,4 +1,4 @@
-// Motions that other simulators have made: a cloth of 21×21 vertices, 1.6 m wide and 1.2 m high, falls over a ball.
+// Motions of other simulators: a cloth of 21×21 vertices, 1.6 m wide and 1.2 m high, falls over a ball.
 
 #include <gtest/gtest.h>
 
@@ -26,9 +26,9 @@ class Imported : public test::InScratchFolder {
 
   static bool succeeds(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()) == 0; }
 
-  /// Runs a simulator, imports its 60 frames, and expects the same fall in the first tenth of a second, before anything
-  /// is touched.
-  /// @returns what its audit finds
+  /// Runs a simulator, imports its 60 frames, and expects the same fall in the first tenth of a second, before any
+  /// contact.
+  /// @returns the findings of its audit
   AuditReport fall(const std::string& command) {
     EXPECT_TRUE(succeeds(command)) << command;
     Progress progress;
@@ -54,7 +54,7 @@ class Imported : public test::InScratchFolder {
 };
 
 TEST_F(Imported, MujocosClothFallsFreelyAndIsAudited) {
-  // Its layers may go through each other, as it says itself: selfcollide="none".
+  // Its layers may pass through each other, because of selfcollide="none".
   EXPECT_GT(fall(by_node("mujoco_cloth.mjs")).findings.findings(Check::crossings).states, 10);
 }
 

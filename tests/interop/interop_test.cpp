@@ -7,12 +7,12 @@
 
 #include "tests/support/written_motion.hpp"
 
-// Files are read by programs that nobody here wrote. readers/ holds a script for each, which prints what it finds:
+// Independent programs read the files. readers/ holds a script for each, which prints its findings:
 //   f A B C       a triangle, before the first moment
-//   t TIME        a moment [s], and of it
-//   v X Y Z       its vertices, in their order [m, z up]
+//   t TIME        a time [s], followed by
+//   v X Y Z       its vertices in order [m, z up]
 //   s X Y Z R     its balls
-// script/interop installs these programs and runs this; elsewhere it is skipped.
+// script/interop installs these programs and runs this; otherwise the test is skipped.
 
 namespace drape::interop {
 namespace {
@@ -28,7 +28,7 @@ struct Found {
   std::vector<Moment> moments;
 };
 
-/// Runs a reader, which must end well, and takes what it prints.
+/// Runs a reader, which must succeed, and parses its output.
 Found read_by(const std::string& command) {
   Found found;
   std::string text;
@@ -63,8 +63,8 @@ Found read_by(const std::string& command) {
   return found;
 }
 
-/// A letter F that stands upright and is seen from −y, hangs from its upper left corner and is hit by a ball from
-/// behind: whatever is mirrored, turned, scaled or of another order shows.
+/// An upright letter F, seen from −y, hanging from its upper left corner and hit by a ball from behind: any mirroring,
+/// rotation, scaling or reordering is detected.
 class Interop : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -86,7 +86,7 @@ class Interop : public ::testing::Test {
     test::WrittenMotion written = test::write_motion(scene_, paths);
     EXPECT_EQ(written.result.problems, std::vector<std::string>{});
     EXPECT_EQ(written.frames.size(), 9U);
-    // It is an F that turns: neither flat nor still, and no symmetry maps it onto itself.
+    // The F turns: it is neither flat nor static, and no symmetry maps it onto itself.
     EXPECT_GT(written.frames.back().positions.col(1).cwiseAbs().maxCoeff(), 0.02);
     return written;
   }
@@ -97,7 +97,7 @@ class Interop : public ::testing::Test {
 
   [[nodiscard]] std::string quoted(const std::string& name) const { return " '" + folder_.path(name) + "'"; }
 
-  /// @param precision of a number, relative to a metre
+  /// @param precision precision of a number, relative to a metre
   void expect_same(const std::vector<Moment>& found, const std::vector<Frame>& frames, double precision) const {
     ASSERT_EQ(found.size(), frames.size());
     for (std::size_t k = 0; k < frames.size(); ++k) {
@@ -156,7 +156,7 @@ TEST_F(Interop, KhronosValidatorAndThreeReadTheBinaryGltf) {
   const Found found = read_by("node " + reader("read_glb.mjs") + " '" + std::getenv("DRAPE_INTEROP") +
                               "/node_modules'" + quoted("x.glb"));
   EXPECT_EQ(found.triangles.size(), scene_.simulation.cloth.triangles.size());
-  expect_same(found.moments, written.frames, 3e-7);  // a displacement and where it begins, each in single precision
+  expect_same(found.moments, written.frames, 3e-7);  // a displacement and its origin, each in single precision
   expect_same_balls(found.moments, written.frames, 1e-5);
 }
 

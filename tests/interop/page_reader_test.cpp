@@ -1,4 +1,4 @@
-// docs/motion-file.md has a reader of motion files in Python: it reads what drape reads.
+// The Python reader of motion files in docs/motion-file.md reads the same data as drape.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ struct RecordedRun {
   RecordedSteps recorded;
 };
 
-/// What the page's reader should write of a motion: states, rows and surface.
+/// Returns the bytes that the page's reader should write for a motion: states, rows and surface.
 std::string expected_bytes(MotionReader& motion, const Mesh& mesh) {
   std::string bytes;
   const auto add = [&](const void* begin, std::size_t size) { bytes.append(static_cast<const char*>(begin), size); };

@@ -15,7 +15,7 @@
 namespace drape::interop {
 namespace {
 
-/// Eight scenes whose errors and times are random.
+/// Makes eight scenes with random errors and times.
 AccuracyStudy random_study() {
   AccuracyStudy study = test::invented_study();
   study.scenes.clear();
@@ -75,7 +75,7 @@ TEST(Profile, IsWhatScipyMakesOfTheRuns) {
     std::string point, method, scheme, setting;
     double lower = 0, upper = 0;
     lines >> point >> method >> scheme >> setting >> lower >> upper;
-    // Scenes come in turn, and with each its runs as they are written.
+    // Scenes are in order, each with its runs in the order of the file.
     bool found = false;
     for (const SceneAccuracy& scene : study.scenes) {
       for (const auto* points : {&scene.asked, &scene.fixed}) {

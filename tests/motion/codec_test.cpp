@@ -13,7 +13,7 @@ namespace {
 
 constexpr double h = 0.01;
 
-/// States at steps 0, `every`, 2·every, … of vertices on their way.
+/// Returns states at steps 0, `every`, 2·every, … of moving vertices.
 std::vector<State> wavering(Eigen::Index vertices, std::int64_t every, int count) {
   const Vertices start = random_vertices(vertices, 1), way = random_vertices(vertices, 2),
                  turn = random_vertices(vertices, 3);
@@ -56,7 +56,7 @@ TEST(StateCodec, GivesExtremeNumbersBack) {
 TEST(StateCodec, FindsASteadyMotionForetold) {
   std::vector<State> states = wavering(500, 1, 6);
   for (State& state : states) {
-    // Exact in binary: nothing is left over.
+    // Exact in binary: the prediction leaves no residual.
     state.x = states[0].x.array().round() + 0.25 * static_cast<double>(state.step);
     state.v.setConstant(0.25);
   }
@@ -70,8 +70,7 @@ TEST(StateCodec, FindsASteadyMotionForetold) {
   EXPECT_GT(first, 200u);
 }
 
-/// Euler's methods move with the velocity that a step ends with: known where the cloth is, it is known, but for
-/// rounding.
+/// Euler's methods move with the velocity at the step's end, so positions determine velocities up to rounding.
 TEST(StateCodec, KnowsEulersVelocitiesFromTheWay) {
   std::vector<State> states = wavering(500, 1, 6);
   for (std::size_t k = 1; k < states.size(); ++k) {
@@ -82,7 +81,7 @@ TEST(StateCodec, KnowsEulersVelocitiesFromTheWay) {
   StateCodec codec(500, h);
   std::size_t last = 0;
   for (const State& state : states) last = codec.encode(state).size();
-  // Of 48 bytes a vertex the places are noise, and of the velocities what x + h·v rounds off.
+  // Positions in the 48 bytes per vertex are noise, and velocities only the rounding of x + h·v.
   EXPECT_LT(last, 500u * 38);
 }
 
@@ -103,7 +102,7 @@ TEST(StateCodec, RefusesWhatIsNoState) {
 TEST(StateCodec, RefusesNumbersThatAreNotFinite) {
   StateCodec reader(1, h);
   std::vector<std::uint64_t> words(6, 0);
-  words[4] = std::uint64_t{0x7ff0000000000000} << 1;  // infinity, as a difference to nothing
+  words[4] = std::uint64_t{0x7ff0000000000000} << 1;  // infinity, as a difference to zero
   const std::string bytes = ByteWriter().whole(0).whole(0).bytes(pack_planes(words)).text();
   EXPECT_THROW(reader.decode(bytes), std::invalid_argument);
 }
@@ -117,7 +116,7 @@ TEST(Packing, GivesBytesBack) {
 }
 
 TEST(Packing, MakesNothingLargerThanTheBytesCanBe) {
-  // Says that it is 2⁶³ bytes.
+  // Claims a size of 2⁶³ bytes.
   EXPECT_THROW(unpack(ByteWriter().whole(std::uint64_t{1} << 63).bytes("abc").text()), std::invalid_argument);
   const std::string packed = pack("abc");
   EXPECT_THROW(unpack(ByteWriter().whole(4).bytes(packed.substr(8)).text()), std::invalid_argument);

@@ -41,7 +41,7 @@ void expect_same(const std::vector<Frame>& frames, const std::vector<Frame>& exp
   }
 }
 
-/// Before its camera can know where to stand.
+/// Stops before the camera's position is known.
 TEST(RecordedFrames, AreNotDrawnWhereThatIsInterrupted) {
   const SceneFolder folder;
   const Scene scene = folder.load(recorded_scene);
@@ -94,12 +94,12 @@ TEST(RecordedFrames, AreCountedWhereTheyAreMissing) {
   RunOptions options;
   options.motion = MotionOptions{.recorded = {.every = 5}};
   record(scene, folder.path("m.drape"), options);
-  // Frame k is at step 2.5 k: the odd ones fall between.
+  // Frame k is at step 2.5 k: odd ones fall between recorded states.
   EXPECT_EQ(frames_in_gaps(MotionReader(folder.path("m.drape")), film_extent(scene, {})), 10);
   EXPECT_EQ(recorded(folder.path("m.drape"), scene, film_extent(scene, {})).size(), 21u);
 }
 
-/// Pictures from a motion file, whose camera is found without another simulation.
+/// Pictures of a motion file, whose camera is found without another simulation.
 TEST(RecordedFrames, AreDrawnAsTheSimulationsAre) {
   const SceneFolder folder;
   const Scene scene = folder.load(recorded_scene);

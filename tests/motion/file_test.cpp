@@ -10,7 +10,7 @@
 namespace drape::test {
 namespace {
 
-/// Every state and row of a scene's motion, from its simulation.
+/// Every state and row of a scene's motion, directly from its simulation.
 struct Straight final : StepObserver {
   std::vector<State> states;
   std::vector<Energies> energies;
@@ -83,7 +83,7 @@ TEST(MotionFile, HoldsEveryNthStepAndTheLast) {
   }
 }
 
-/// 20 frames in a second of 50 steps: frame k is at step 2.5 k, so of five steps it needs those at 0, 2 and 3.
+/// 20 frames and 50 steps per second: frame k is at step 2.5 k, so of five steps it needs those at 0, 2 and 3.
 TEST(MotionFile, HoldsWhatFramesNeed) {
   const SceneFolder folder;
   RunOptions options;
@@ -120,7 +120,7 @@ TEST(MotionFile, KeepsTheFilesOfItsScene) {
   EXPECT_NE(content(own.scene().look.texture), "");
 }
 
-/// Everything of a motion file is read.
+/// Reads the whole motion file.
 void read_all(const std::string& file) {
   MotionReader motion(file);
   for (std::size_t i = 0; i < motion.states(); ++i) motion.state(i);

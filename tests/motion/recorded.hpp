@@ -25,8 +25,8 @@ class StopAfter final : public StepObserver {
   std::stop_source stop_;
 };
 
-/// Runs a scene into a motion file.
-/// @param stop_after this step; 0: at its end
+/// Runs a scene and writes a motion file.
+/// @param stop_after step at which it stops; 0: the last
 inline RunResult record(const Scene& scene, const std::string& file, RunOptions options = {},
                         std::int64_t stop_after = 0) {
   if (!options.motion) options.motion.emplace();
@@ -37,7 +37,7 @@ inline RunResult record(const Scene& scene, const std::string& file, RunOptions 
   return run_scene(scene, options, stop.token(), progress);
 }
 
-/// Goes on with it.
+/// Resumes a recorded motion.
 inline RunResult resume(const std::string& file, RunOptions options = {}, std::int64_t stop_after = 0) {
   const auto from = std::make_shared<const ResumePoint>(read_resumption(file));
   const MotionScene folder(*from->partial);
@@ -47,7 +47,7 @@ inline RunResult resume(const std::string& file, RunOptions options = {}, std::i
   return record(folder.scene(), file, options, stop_after);
 }
 
-/// A cloth that swings on its pins past a sphere that moves.
+/// A cloth that swings on its pins past a moving sphere.
 const std::string recorded_scene = R"(
 [cloth]
 mesh = { grid = [5, 4] }

@@ -1,4 +1,4 @@
-// A run that was interrupted and goes on comes to the bits of one that was not, with every method and every effect.
+// An interrupted and resumed run gives the same bits as an uninterrupted one, with every method and effect.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int steps = 40;
 
-/// A table for each effect, and all of them together.
+/// Returns a table for each effect, and all of them together.
 std::vector<std::string> effects_of_scenes() {
   std::vector<std::string> tables{
       "[effects.gravity]\n",
@@ -70,7 +70,7 @@ TEST_P(Resumed, RunsComeToTheSameBits) {
   }
 }
 
-/// Of the records only what the clock says may be another.
+/// Records differ only in measured times.
 TEST_P(Resumed, RunsHaveRecordsOfTheWholeMotion) {
   const SceneFolder folder;
   const Scene scene = folder.load(scene_of(GetParam(), effects_of_scenes().back()));
@@ -111,7 +111,7 @@ TEST_P(Resumed, RunsHaveRecordsOfTheWholeMotion) {
   }
 }
 
-/// What watches over the energy goes on with what it knew: it names the same step.
+/// The energy guard resumes with its history: it reports the same step.
 TEST(ResumedRun, DivergesInTheSameStep) {
   const SceneFolder folder;
   const Scene scene = folder.load(
@@ -132,7 +132,7 @@ TEST(ResumedRun, DivergesInTheSameStep) {
   }
 }
 
-/// What a killed process leaves: more of the motion than there is a checkpoint for.
+/// Leftovers of a killed process: a motion longer than its checkpoint.
 class KilledAt final : public StepObserver {
  public:
   KilledAt(const SceneFolder& folder, std::int64_t step) : folder_(folder), step_(step) {}
@@ -186,7 +186,7 @@ TEST(ResumedRun, IsNotOverwrittenByANewOne) {
             }).find("m.drape.partial exists, from a run in progress or ended early: drape simulate --resume"),
             std::string::npos);
   EXPECT_EQ(content(folder.path("m.drape.partial")), kept);
-  // Where there is nothing to go on from, nothing is lost.
+  // Without a checkpoint to resume from, nothing is lost.
   std::filesystem::remove(folder.path("m.drape.checkpoint"));
   EXPECT_EQ(record(scene, folder.path("m.drape")).outcome, Outcome::completed);
 }
@@ -204,7 +204,7 @@ TEST(ResumedRun, LeavesNothingWhereNoStepWasDone) {
   EXPECT_EQ(folder.file_count(), 1u) << "the scene";
 }
 
-/// Whichever byte of it is another: a checkpoint is refused, or never needed.
+/// A checkpoint with any changed byte is refused, or the byte is unused.
 TEST(ResumedRun, RefusesDamagedCheckpoints) {
   const SceneFolder folder;
   folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

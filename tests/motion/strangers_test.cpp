@@ -1,4 +1,4 @@
-// Motions and checkpoints in which every size and checksum is right, and nothing else need be.
+// Motions and checkpoints with valid sizes and checksums and arbitrary content.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace drape::test {
 namespace {
 
-/// A motion of three steps, whose blocks are changed.
+/// A motion of three steps with edited blocks.
 class StrangersMotion : public testing::Test {
  protected:
   StrangersMotion() {
@@ -53,7 +53,7 @@ TEST_F(StrangersMotion, IsReadWhereItWasOnlySealedAgain) {
   EXPECT_EQ(error_of(OpenedBlocks(good_)), "(no error)");
 }
 
-/// The bytes that are packed, of which hardly any change can be unpacked.
+/// Changes of compressed bytes, which can rarely be decompressed.
 TEST_F(StrangersMotion, IsDrawnOrRefusedWhicheverByteOfAPayloadIsAnother) {
   constexpr std::size_t head_size = 16;
   const std::size_t begin = good_.find(state_tag);
@@ -69,7 +69,11 @@ TEST_F(StrangersMotion, IsDrawnOrRefusedWhicheverByteOfAPayloadIsAnother) {
   }
 }
 
+<<<<<<< HEAD
 /// Sets every place in a motion. What is predicted from nothing is there as it is, its bits shifted by one.
+=======
+/// Sets every position in a motion. Values without a prediction are stored directly, shifted by one bit.
+>>>>>>> w4tmp
 void set_places(OpenedBlocks& blocks, double value) {
   for (OpenedBlock& block : blocks.blocks) {
     if (block.tag != state_tag) continue;
@@ -145,7 +149,7 @@ TEST_F(StrangersMotion, HasTheStepOfItsScene) {
   EXPECT_EQ(error_of(blocks), "bad.drape: the file's scene has another time step than its motion");
 }
 
-/// Rows of all steps, or an index that says so, would be drawn for ever.
+/// Rows of all steps, or an index that claims them, would be drawn for ever.
 TEST_F(StrangersMotion, HasRowsOfAllItsSteps) {
   OpenedBlocks blocks(good_);
   std::string& head = blocks.block(header_tag).plain;
@@ -161,7 +165,7 @@ TEST_F(StrangersMotion, HasRowsOfAllItsSteps) {
   EXPECT_NE(error_of(blocks).find("does not have the rows of all steps"), std::string::npos) << error_of(blocks);
 }
 
-/// Whichever bits of its parts are others, it is drawn or refused.
+/// A motion with random bits flipped is drawn or refused.
 class TamperedMotion : public StrangersMotion, public testing::WithParamInterface<int> {};
 
 TEST_P(TamperedMotion, IsDrawnOrRefused) {
@@ -189,7 +193,7 @@ TEST_P(TamperedMotion, IsDrawnOrRefused) {
 INSTANTIATE_TEST_SUITE_P(Few, TamperedMotion, testing::Values(0));
 INSTANTIATE_TEST_SUITE_P(Nightly, TamperedMotion, testing::Range(1, 26));
 
-/// A run that was interrupted, with everything in its checkpoint.
+/// An interrupted run with a complete checkpoint.
 class StrangersCheckpoint : public testing::Test {
  protected:
   StrangersCheckpoint() {
@@ -200,7 +204,7 @@ class StrangersCheckpoint : public testing::Test {
     partial_ = content(folder_.path("m.drape.partial"));
     checkpoint_ = content(folder_.path("m.drape.checkpoint"));
   }
-  /// Resuming is refused, and takes nothing away.
+  /// Expects that resuming is refused and loses nothing.
   void expect_refused(const std::string& partial, const std::string& checkpoint, const std::string& file) {
     folder_.write("m.drape.partial", partial);
     folder_.write("m.drape.checkpoint", checkpoint);
@@ -240,7 +244,7 @@ TEST_F(StrangersCheckpoint, IsNotGoneOnFromWhereTheMotionIsDamaged) {
     expect_refused(bytes, checkpoint_, "m.drape.partial");
   }
   const OpenedBlocks good(partial_);
-  for (const char* tag : {state_tag, rows_tag}) {  // with a checksum that is right
+  for (const char* tag : {state_tag, rows_tag}) {  // with a valid checksum
     OpenedBlocks blocks = good;
     const auto is_wanted = [&](const OpenedBlock& block) { return block.tag == tag; };
     const auto found = std::ranges::find_if(blocks.blocks, is_wanted);

@@ -54,7 +54,7 @@ TEST(Ticks, AreThinnedUntilTheirLabelsStandApart) {
   EXPECT_EQ(kept(1000), "0 ");
 }
 
-/// The widest columns of paper alone between the first and the last letter of the labels at the foot of a band.
+/// Returns the widths of blank columns between the first and the last letter of the labels at the foot of a band.
 std::vector<int> gaps_at_foot(const Image& band, int rows) {
   std::vector<int> gaps;
   int last = -1;
@@ -74,7 +74,7 @@ TEST(CurveBand, LabelsOfTimesStandApartOnANarrowFilm) {
     const int size = 11;
     const CurveBand band(width, size, "J", {0, 0.6, 1.2}, {{"total", {0, 0, 0}, {0.1, 0.2, 0.15}}});
     const std::vector<int> gaps = gaps_at_foot(band.draw(pen, 1.2), size + size / 2);
-    // Between the letters of a label there are less than four columns, between labels at least half a letter.
+    // Letters of a label are less than four columns apart, labels at least half a letter.
     for (const int gap : gaps) EXPECT_TRUE(gap < 5 || gap >= size / 2) << width << ": " << gap;
     EXPECT_GE(std::ranges::count_if(gaps, [&](int gap) { return gap >= size / 2; }), 1) << width;
   }
@@ -101,7 +101,7 @@ TEST(ColorBar, HasTheColourThatAMarkStandsFor) {
   EXPECT_TRUE(has(viridis(1)));
 }
 
-/// The columns that have a pixel of nearly this colour, from the first to the last.
+/// Returns the first and the last column with a pixel of nearly this colour.
 std::pair<int, int> columns_of(const Image& image, const Rgb& color) {
   std::pair<int, int> columns{image.width, -1};
   for (int y = 0; y < image.height; ++y) {
@@ -131,7 +131,7 @@ TEST(CurveBand, EndsWhereTheFilmIsAndKeepsItsAxes) {
   const auto [whole_from, whole_to] = columns_of(whole, blue);
   EXPECT_EQ(from, whole_from);
   EXPECT_NEAR(to, (whole_from + whole_to) / 2.0, 8);
-  // What is drawn once does not move: left of where the half film is, both are the same but for the dot at its end.
+  // Drawn curves do not change: up to the half film's time both are equal, except the dot at its end.
   for (int y = 0; y < half.height; ++y) {
     for (int x = 0; x < to - 10; ++x) ASSERT_TRUE(std::equal(half.at(x, y), half.at(x, y) + 3, whole.at(x, y)));
   }

@@ -67,7 +67,7 @@ TEST(TextTemplate, SaysWhichBraceIsWrong) {
 
 TEST(Fonts, HaveGreekTheMicroSignAndChinese) {
   Fonts fonts;
-  const Glyph missing = fonts.glyph(U'\U0010FFFD', 32);  // a character that is nothing
+  const Glyph missing = fonts.glyph(U'\U0010FFFD', 32);  // a noncharacter
   for (const char32_t letter : {U'a', U'ε', U'Δ', U'µ', U'中', U'模'}) {
     const Glyph& glyph = fonts.glyph(letter, 32);
     EXPECT_GT(glyph.advance, 0) << static_cast<std::uint32_t>(letter);
@@ -138,7 +138,7 @@ TEST(Pen, BreaksLinesAtSpacesOrElseBetweenLetters) {
   EXPECT_EQ(pen.wrap("a\n\nb", 16, 100), (std::vector<std::string>{"a", "", "b"}));
 }
 
-/// The contrast ratio (WCAG 2.1) of the letters with what is around them, where that is least.
+/// Returns the least contrast ratio (WCAG 2.1) of the letters with their surroundings.
 double least_contrast(const Image& image, const Image& plain, const Rgb& ink, int reach) {
   const std::array<std::uint8_t, 3> letter{static_cast<std::uint8_t>(std::lround(255 * ink.r)),
                                            static_cast<std::uint8_t>(std::lround(255 * ink.g)),
@@ -182,7 +182,7 @@ TEST(Caption, IsReadableOnAnyBackground) {
   }
 }
 
-/// Whether nothing is written at the edge of a picture that was white.
+/// Returns true if nothing is written at the edge of an initially white picture.
 bool is_framed(const Image& image) {
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
@@ -237,7 +237,7 @@ TEST(Caption, IsRefusedWithTheLargestSizeThatFits) {
             "the caption is too long for a picture of 64x64 pixels, even with letters of 6 pixels");
 }
 
-// The rim took time with the fourth power of the size: that of this text more than two minutes.
+// Regression: the rim once took time with the fourth power of the size, for this text more than two minutes.
 TEST(Pen, DrawsARimOfAnySize) {
   Pen pen;
   Image image = filled(1600, 700, {255, 255, 255});
@@ -261,7 +261,7 @@ TEST(Pen, ARimIsAsDarkAsItIsNear) {
   int checked = 0;
   for (int y = 20; y < 70; ++y) {
     for (int x = 10; x < 100; ++x) {
-      double near = 1e9;  // the distance to a letter
+      double near = 1e9;  // distance to a letter
       for (int v = 0; v < letters.height; ++v) {
         for (int u = 0; u < letters.width; ++u) {
           if (*letters.at(u, v) > 250) near = std::min(near, std::hypot(u - x, v - y));

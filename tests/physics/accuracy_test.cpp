@@ -14,7 +14,7 @@ namespace {
 class Accuracy : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, Accuracy, testing::ValuesIn(all_methods), method_name);
 
-/// A cloth stretched by a tenth and pinned at its corners: its motion is smooth, for no spring ever slackens.
+/// Makes a cloth stretched by a tenth and pinned at its corners: its motion is smooth, because no spring ever slackens.
 Cloth taut_cloth() {
   const Mesh rest = make_grid(4, 4);
   Mesh start = rest;
@@ -40,7 +40,7 @@ TEST_P(Accuracy, ErrorHasTheOrderOfTheScheme) {
     return (simulation.state().x - exact.x).norm();
   };
   // The error is c₁h + c₂h² + … with both Euler schemes, and has no c₁ with the others. The frequencies of this cloth
-  // are at most 20/s, so at h = 1 ms each term is a few per cent of the one before and moves the order by as much.
+  // are at most 20/s, so at h = 1 ms each term is a few per cent of the previous one and changes the order by as much.
   const double coarse = error(200), fine = error(400);
   const double expected = GetParam().second_order() ? 2 : 1;
   EXPECT_NEAR(std::log2(coarse / fine), expected, 0.1);
@@ -50,7 +50,7 @@ TEST_P(Accuracy, ErrorHasTheOrderOfTheScheme) {
 class Dissipation : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, Dissipation, testing::ValuesIn(implicit_methods), method_name);
 
-/// A cloth stretched by a half and pinned along its whole border.
+/// Makes a cloth stretched by a half and pinned along its whole border.
 Cloth drum() {
   constexpr int n = 6;
   const Mesh rest = make_grid(n, n);
@@ -67,8 +67,8 @@ Cloth drum() {
   return cloth;
 }
 
-// While every spring is stretched E is convex, E(x) ≥ E(x') + ∇E(x')·(x − x'), and a step of implicit Euler, where
-// ∇E(x') = −M(v' − v)/h on the free vertices, loses at least the energy ‖v' − v‖²_M/2.
+// While every spring is stretched E is convex, E(x) ≥ E(x') + ∇E(x')·(x − x'). A step of implicit Euler, where
+// ∇E(x') = −M(v' − v)/h on the free vertices, then loses at least the energy ‖v' − v‖²_M/2.
 TEST_P(Dissipation, IsAtLeastTheEnergyOfTheChangeOfVelocity) {
   SimulationSettings settings = setup(drum(), GetParam(), 0.02);
   settings.integrator.stop = StoppingRule::gradient;

@@ -23,8 +23,8 @@ drape::Air air(const Vector3d& velocity = Vector3d::Zero(), double gust = 0) {
   return {.velocity = velocity, .density = density, .drag = drag, .lift = lift, .gusts = {.speed = gust}};
 }
 
-/// A flat sheet of 2 m × 2 m whose vertices have the masses of their share of its area, so that the air and gravity
-/// bend it nowhere.
+/// Makes a flat sheet of 2 m × 2 m with masses proportional to the vertices' areas, so that air and gravity do not bend
+/// it.
 Cloth even_sheet(double mass) {
   Cloth cloth = cloth_of(make_grid(5, 5), 1, 40, {});
   cloth.masses.setZero();
@@ -55,7 +55,7 @@ TEST_P(Air, OnItsWayThereItFollowsTheHyperbolicTangent) {
   EXPECT_NEAR(mean_velocity(simulation.state())[2], -terminal * std::tanh(9.8 * 0.1 / terminal), 0.003);
 }
 
-/// The force on an even sheet in a wind, by the change of its momentum in a very short step.
+/// Returns the force on an even sheet in a wind, by the change of its momentum in a very short step.
 Vector3d force_in(const Vector3d& wind, const Vector3d& velocity, Method method) {
   SimulationSettings settings = setup(even_sheet(0.4), method, 1e-6);
   settings.cloth.velocities.rowwise() = velocity.transpose();
@@ -74,7 +74,7 @@ TEST_P(Air, DragFollowsTheWindAndLiftIsAcrossIt) {
     const Vector3d across = Vector3d::UnitZ() - c * wind / 3;
     const Vector3d expected = pressure * (drag * std::abs(c) * wind / 3 + lift * c * across);
     EXPECT_LT((force_in(wind, Vector3d::Zero(), method) - expected).norm(), 1e-3 * pressure) << angle;
-    // It is the velocity relative to the cloth that counts.
+    // Only the velocity relative to the cloth counts.
     const Vector3d drift(1, -2, 0.5);
     EXPECT_LT((force_in(wind + drift, drift, method) - expected).norm(), 1e-3 * pressure) << angle;
   }
@@ -82,7 +82,7 @@ TEST_P(Air, DragFollowsTheWindAndLiftIsAcrossIt) {
 
 TEST_P(Air, WithoutWindAndMotionItDoesNothing) {
   EXPECT_EQ(force_in(Vector3d::Zero(), Vector3d::Zero(), GetParam().method), Vector3d::Zero());
-  // Rounding of positions, over a step that short and again over it, is all that an implicit method may add.
+  // An implicit method may add only the rounding of positions, divided twice by the very short step.
   EXPECT_LT(force_in({2, 1, 0}, {2, 1, 0}, GetParam().method).norm(), 1e-4);
 }
 
@@ -90,7 +90,7 @@ double kinetic(const State& state, const Eigen::VectorXd& masses, const Vector3d
   return 0.5 * masses.dot((state.v.rowwise() - wind.transpose()).rowwise().squaredNorm());
 }
 
-// However light the cloth, however fast and long the step: the air brings it to rest at most.
+// For any lightness, speed and step, the air brings the cloth at most to rest.
 TEST(AirBound, NoStepRaisesTheKineticEnergyRelativeToTheWind) {
   const Vector3d wind(3, -1, 2);
   for (const double h : {0.001, 0.02, 1.0, 100.0}) {
@@ -102,7 +102,7 @@ TEST(AirBound, NoStepRaisesTheKineticEnergyRelativeToTheWind) {
     double before = kinetic({.x = {}, .v = settings.cloth.velocities}, settings.cloth.masses, wind);
     Simulation simulation(settings);
     for (int step = 0; step < 5; ++step) {
-      // From the same shape every time: a long step would carry the vertices away.
+      // Starts from the same shape every time: a long step would carry the vertices away.
       State state = simulation.state();
       state.x = settings.cloth.positions;
       simulation.restore(state);
@@ -114,7 +114,7 @@ TEST(AirBound, NoStepRaisesTheKineticEnergyRelativeToTheWind) {
   }
 }
 
-// Whichever of its vertices are held: those do not have to be stopped.
+// With any of its vertices held: those need not be stopped.
 TEST(AirBound, OneTriangleIsStoppedAndNotBlownBack) {
   Cloth cloth;
   cloth.positions.resize(3, 3);

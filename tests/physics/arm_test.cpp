@@ -1,5 +1,4 @@
-// Cloth that is pinned to bodies: to the corners of a box, and to a skinned arm from a file that somebody else has
-// made.
+// Cloth pinned to bodies: to the corners of a box, and to a skinned arm from a file of another author.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +19,7 @@ namespace {
 
 const std::filesystem::path arm_file = DRAPE_SOURCE_DIR "/../shared/reference/real/arm_with_cloth.usda";
 
-/// The way of the vertex that is where the cloth's is when the motion begins.
+/// Returns the path of the mesh vertex at the cloth vertex's initial position.
 std::vector<Keyframe> way_of(const MeshMotion& motion, const Eigen::RowVector3d& start) {
   Eigen::Index nearest = 0;
   (motion.samples.front().rowwise() - start).rowwise().squaredNorm().minCoeff(&nearest);
@@ -34,10 +33,10 @@ std::vector<Keyframe> way_of(const MeshMotion& motion, const Eigen::RowVector3d&
 class PinnedToABody : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, PinnedToABody, testing::ValuesIn(all_methods), method_name);
 
-// A part of it lies on the box, and the rest hangs down in front. Pins and box touch all the time, and nothing can
-// change that: where the cloth's edges leave a pin, they are near the box's as well.
+// A part lies on the box, and the rest hangs in front. Pins and box touch permanently: the cloth's edges near a pin are
+// near the box's edges too.
 TEST_P(PinnedToABody, AClothIsNotThrown) {
-  constexpr double side = 1, drop = 0.75;  // as far as it hangs, and a little more
+  constexpr double side = 1, drop = 0.75;  // length that hangs, and a little more
   Mesh sheet = make_grid(4, 4);
   sheet.positions *= side / 2;
   SimulationSettings s = setup(cloth_of(sheet, 0.2, 200, {16, 18}), GetParam(), 0.004);
@@ -49,7 +48,7 @@ TEST_P(PinnedToABody, AClothIsNotThrown) {
   Simulation simulation(s);
   for (int step = 0; step < 200; ++step) {
     simulation.step();
-    // Nothing is faster than what has fallen so far, but for springs that give back what others have lost.
+    // The speed limit is that of free fall so far, doubled for energy that springs transfer.
     ASSERT_LT(simulation.state().v.rowwise().norm().maxCoeff(), 2 * std::sqrt(2 * 9.8 * drop)) << "step " << step;
   }
   EXPECT_LT(simulation.state().x.rowwise().norm().maxCoeff(), 1.5 * side);
@@ -86,7 +85,7 @@ TEST(Arm, AClothThatHangsOnItStaysOutOfIt) {
         }
       }
     }
-    // It has been taken along: where the arm has gone is not where the cloth began.
+    // The arm has carried it along, away from its start.
     EXPECT_GT((simulation.state().x - sheet.positions).rowwise().norm().minCoeff(), 0.1);
     EXPECT_LT(simulation.state().x.cwiseAbs().maxCoeff(), 4) << "thrown off";
   }

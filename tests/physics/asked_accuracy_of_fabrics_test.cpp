@@ -1,5 +1,5 @@
-// What a step adds to the error of a vertex, over random scenes: fabrics, poses, speeds, pins, steps and accuracies.
-// Nothing is touched in them; what can be missed in a step with an impact is in docs/accuracy.md.
+// Error that a step adds to a vertex, over random scenes: fabrics, poses, speeds, pins, steps and accuracies. They have
+// no contact; docs/accuracy.md tells what a step with an impact may miss.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 double largest(const Vertices& a, const Vertices& b) { return (a - b).rowwise().norm().maxCoeff(); }
 
-/// A cloth of a fabric, or of springs as soft as 2 N/m, that is held by up to three corners.
+/// Makes a cloth of a fabric, or of springs as soft as 2 N/m, held by up to three corners.
 SimulationSettings random_scene(Random& random) {
   SimulationSettings settings;
   const int cells = 4 + random.below(7);
@@ -54,8 +54,8 @@ SimulationSettings random_scene(Random& random) {
   return settings;
 }
 
-/// Where a step leads without error of time stepping and solve, but for that of Verlet's steps of a sixteenth of the
-/// safe step, which is less than a hundredth of the accuracies.
+/// Returns the state after a step without errors of time stepping and solve, except those of Verlet's steps of a
+/// sixteenth of the safe step, which are below a hundredth of the accuracies.
 Vertices exact_step(SimulationSettings settings, const State& from) {
   settings.integrator = {.method = Method::verlet};
   settings.accuracy.reset();
@@ -93,7 +93,7 @@ TEST_P(AskedOfFabrics, HardlyAStepIsLessAccurateThanAskedAndItsEstimateIsRight) 
       ++steps;
       worst = std::max(worst, error / accuracy);
       if (error > 1.2 * accuracy) ++beyond;
-      // What is far more accurate than asked need not be known exactly.
+      // The ratio is not judged where the error is far below the requested accuracy.
       if (std::max(error, *report.estimate) < 0.03 * accuracy) continue;
       ++judged;
       if (error <= 3 * *report.estimate && *report.estimate <= 3 * error) ++close;

@@ -1,4 +1,4 @@
-// A scene says how accurate its steps have to be, and they are cut until they are.
+// A scene requests an accuracy per step, and steps are divided until they reach it.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double h = 0.02;
 
-/// 10×10 cells that swing from two corners.
+/// Makes 10×10 cells that swing from two corners.
 SimulationSettings swinging(Solver solver, double accuracy, double stiffness = 180) {
   SimulationSettings settings = setup(cloth_of(make_grid(10, 10), 1, stiffness, {0, 10}), solver, h);
   settings.effects = {Gravity{}};
@@ -29,7 +29,7 @@ SimulationSettings swinging(Solver solver, double accuracy, double stiffness = 1
 
 double largest(const Vertices& a, const Vertices& b) { return (a - b).rowwise().norm().maxCoeff(); }
 
-/// Where a step leads from a state without error of time stepping and solve, but for that of Verlet's steps of h/2^9.
+/// Returns the state after a step without errors of time stepping and solve, except those of Verlet's steps of h/2^9.
 Vertices exact_step(const SimulationSettings& settings, State from) {
   constexpr int halvings = 9;
   SimulationSettings small = settings;
@@ -58,17 +58,16 @@ TEST_P(AskedAccuracy, TheErrorFallsWithIt) {
     Simulation simulation(swinging(GetParam(), accuracy));
     for (int i = 0; i < steps; ++i) simulation.step();
     const double error = largest(simulation.state().x, reference.state().x);
-    // An error of a velocity goes on through the motion: as many times the accuracy as there are steps before and
-    // after.
+    // An error of a velocity persists, so the bound is the accuracy times the steps before and after.
     EXPECT_LE(error, steps * steps * accuracy) << accuracy;
     errors.push_back(error);
   }
-  // The steps that are safe, or cheapest, may be more accurate than is asked.
+  // Steps that are safe, or cheapest, may be more accurate than requested.
   EXPECT_LE(errors[1], 1.1 * errors[0]);
   EXPECT_LE(errors[2], std::max(0.2 * errors[0], steps * 1e-4));
 }
 
-// No cloth buckles or touches anything in these steps.
+// The cloth neither buckles nor touches anything in these steps.
 TEST_P(AskedAccuracy, TheEstimateIsWithinAFactorOfThreeOfTheError) {
   for (const double accuracy : {1e-3, 1e-4}) {
     const SimulationSettings settings = swinging(GetParam(), accuracy);
@@ -82,7 +81,7 @@ TEST_P(AskedAccuracy, TheEstimateIsWithinAFactorOfThreeOfTheError) {
       ASSERT_TRUE(report.estimate);
       EXPECT_LE(*report.estimate, accuracy);
       EXPECT_LE(error, 10 * std::max(*report.estimate, accuracy / 10)) << "in step " << i;
-      // What is far more accurate than asked need not be known exactly.
+      // The ratio is not judged where the error is far below the requested accuracy.
       if (std::max(error, *report.estimate) < 0.1 * accuracy) continue;
       ++judged;
       if (error <= 3 * *report.estimate && *report.estimate <= 3 * error) ++close;
@@ -124,7 +123,7 @@ TEST_P(AskedAccuracy, PinsMoveThroughTheSubstepsAndAreReleasedInTheirStep) {
   EXPECT_EQ(simulation.cloth().pins, std::vector{0});
 }
 
-// Schemes of second order do nothing wrong in free fall, where Euler's are g·h/2 too fast.
+// Second-order schemes are exact in free fall; Euler's are g·h/2 too fast.
 TEST_P(AskedAccuracy, AClothFallsWithoutError) {
   SimulationSettings settings = swinging(GetParam(), 0.02);
   settings.cloth.pins.clear();
@@ -136,14 +135,14 @@ TEST_P(AskedAccuracy, AClothFallsWithoutError) {
   EXPECT_NEAR(*report.estimate, 0, 1e-6 * h * h);
 }
 
-// A residual force on a vertex that is the same in every substep of h/n moves it by its tolerance·n²/2 in the step.
+// A constant residual force in every substep of h/n moves a vertex by its tolerance·n²/2 in the step.
 TEST_P(AskedAccuracy, TheSolvesLeaveOutATwentiethOfItAtMost) {
   if (GetParam().is_explicit()) GTEST_SKIP() << "nothing is solved";
   for (const double accuracy : {1e-3, 1e-5, 1e-7}) {
     Simulation simulation(swinging(GetParam(), accuracy));
     const StepReport report = simulation.step();
     const double tolerance = simulation.accuracy().value().tolerance, n = static_cast<double>(report.substeps);
-    const double solved = 1 - std::sqrt(0.5);  // of a substep at once: SDIRK2's stages
+    const double solved = 1 - std::sqrt(0.5);  // part of a substep solved at once: SDIRK2's stages
     EXPECT_LE(tolerance * n * n / (2 * solved * solved), 0.05 * accuracy * (1 + 1e-9)) << accuracy;
   }
 }
@@ -165,8 +164,8 @@ TEST_P(AskedAccuracy, AtTheCapAStepSaysThatItHasNotConverged) {
 class AskedOfEuler : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, AskedOfEuler, testing::ValuesIn(implicit_methods), method_name);
 
-/// How often a motion evaluates g, at least: once in an iteration, where each substep begins, and at three places where
-/// a step by default may begin. And how far it ends from the reference.
+/// Least number of evaluations of g in a motion: one per iteration, one per start of a substep, and three for a default
+/// step's possible starts. Error: distance of its end from the reference.
 struct Work {
   double evaluations, error;
 };
@@ -182,7 +181,7 @@ Work work_of(const SimulationSettings& settings, double time, const Vertices& re
   return work;
 }
 
-// What somebody finds by hand is a point on the line through fixed steps that are halved again and again.
+// A manual search finds a point on the line through fixed steps that are halved repeatedly.
 TEST_P(AskedOfEuler, AtEqualErrorItTakesAtMostHalfAsManyEvaluationsAgainAsTheBestFixedStep) {
   constexpr double time = 15 * h;
   SimulationSettings exact = swinging(Method::verlet, 1);
@@ -216,13 +215,13 @@ class AskedExplicitly : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, AskedExplicitly, testing::ValuesIn(explicit_methods), method_name);
 
 TEST_P(AskedExplicitly, AStepBeyondTheSafeOneRuns) {
-  SimulationSettings settings = swinging(GetParam(), 1, 1e5);  // an accuracy that asks for nothing
+  SimulationSettings settings = swinging(GetParam(), 1, 1e5);  // an accuracy without effect
   const double safe = safe_step(make_system(settings));
   ASSERT_GT(h, 50 * safe);
   Simulation simulation(settings);
   for (int i = 0; i < 10; ++i) {
     const StepReport report = simulation.step();
-    EXPECT_LE(2 * h / static_cast<double>(report.substeps), safe);  // those beside it are twice as long
+    EXPECT_LE(2 * h / static_cast<double>(report.substeps), safe);  // the companion steps are twice as long
     EXPECT_TRUE(report.converged);
   }
   settings.accuracy.reset();
@@ -239,11 +238,11 @@ double energy_of(const Simulation& simulation) {
   return energy;
 }
 
-// Symplectic steps keep an energy that differs from the springs' in proportion to their length. Steps of which one mode
-// gains but a hundredth would have doubled it many times over after so many.
+// Symplectic steps conserve an energy that differs from the springs' in proportion to their length. If one mode gained
+// only a hundredth per step, the energy would have doubled many times by the end.
 TEST_P(AskedExplicitly, NothingMakesUndampedSpringsSwingMoreAndMore) {
   for (const double stiffness : {180., 1800., 5000.}) {
-    SimulationSettings settings = swinging(GetParam(), 1, stiffness);  // the longest steps that are stable
+    SimulationSettings settings = swinging(GetParam(), 1, stiffness);  // the longest stable steps
     settings.effects = {};
     settings.cloth.pins.clear();
     settings.cloth.positions += 0.02 * random_vertices(settings.cloth.vertex_count(), 3);

@@ -1,5 +1,5 @@
-// A bent sheet's equilibrium on every kind of mesh: what is left when the mesh may ripple, not what a given shape
-// holds.
+// A bent sheet's equilibrium on every kind of mesh: the minimum in which the mesh may ripple, not the energy of a given
+// shape.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using test::Division;
 
-/// Bending for small deflections: K u = M a, u across the sheet, of the vertices that are not pinned.
+/// Bending for small deflections: K u = M a, with u the deflection of the free vertices.
 struct SmallBending {
   std::vector<int> numbers;  // of the unknowns, −1 for pinned vertices
   Eigen::VectorXd masses;
@@ -48,7 +48,7 @@ struct SmallBending {
   }
 };
 
-/// How far the tip of a heavy strip of 0.2 m sinks, over Euler and Bernoulli's ρgL⁴/8D.
+/// Returns the sag of the tip of a heavy strip of 0.2 m, relative to Euler and Bernoulli's ρgL⁴/8D.
 double tip_ratio(Division division, int cells) {
   constexpr double length = 0.2, load = 2, rigidity = 0.3;
   const test::Sheet sheet = test::clamped_strip(division, cells, cells / 4, length);
@@ -65,7 +65,7 @@ double tip_ratio(Division division, int cells) {
   return sum / count * 8 * rigidity / (load * std::pow(length, 4));
 }
 
-/// The first frequency of a clamped square of n×n cells over the plate's, 35.985 √(D/ρ)/a².
+/// Returns the first frequency of a clamped square of n×n cells, relative to the plate's 35.985 √(D/ρ)/a².
 double frequency_ratio(Division division, int n) {
   constexpr double density = 0.2, rigidity = 0.3;
   const SmallBending bending(test::cloth_of(test::clamped_square(division, n), density), rigidity);
@@ -80,7 +80,7 @@ double frequency_ratio(Division division, int n) {
   return std::sqrt(square * density / rigidity) / 35.985;
 }
 
-/// Springs along a sheet for small displacements in its plane: the force on each when the sheet is heavy along y.
+/// Returns the springs' forces for small displacements in a sheet's plane, when the sheet is heavy along y.
 Eigen::VectorXd forces_of_weight(const Cloth& cloth, const std::vector<int>& numbers, const Eigen::VectorXd& masses) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const Spring& spring : cloth.springs) {
@@ -113,8 +113,8 @@ Eigen::VectorXd forces_of_weight(const Cloth& cloth, const std::vector<int>& num
   return forces;
 }
 
-/// The weight w L³/D, w that of an area, at which a strip that stands on its narrow side buckles: the least λ for which
-/// the springs' forces across it, λ G u, outdo its bending, K u. G has eigenvalues of both signs.
+/// Returns the weight w L³/D, w per area, at which a strip standing on its narrow side buckles: the least λ for which
+/// the springs' lateral forces, λ G u, exceed its bending forces, K u. G has eigenvalues of both signs.
 double buckling_load(Division division, int cells, int across) {
   constexpr double length = 1, rigidity = 1;
   Cloth cloth = test::cloth_of(test::clamped_strip(division, cells, across, length), 1);
@@ -163,13 +163,13 @@ TEST_P(OnEveryMesh, AClampedSquareRingsAsAPlate) {
   EXPECT_NEAR(frequency_ratio(GetParam(), wide ? 120 : 30), 1, 0.01);  // 30 cells each way, or 120 by 30
 }
 
-// Prandtl's lateral buckling of a strip under its own weight: 12.85 √(B C)/L³ with the stiffness B = D b against
-// bending to the side and C = 2 D b against twisting, for each width b.
+// Prandtl's lateral buckling of a strip under its own weight: 12.85 √(B C)/L³ with the stiffness B = D b of sideways
+// bending and C = 2 D b of twisting, for each width b.
 TEST_P(OnEveryMesh, ANarrowStripBucklesToTheSide) {
   EXPECT_NEAR(buckling_load(GetParam(), 128, 4), 12.85 * std::numbers::sqrt2, 0.03 * 18.2);
 }
 
-/// A strip of unit length whose rest shape is a quarter of a circle from its clamp on.
+/// Makes a strip of unit length whose rest shape is a quarter of a circle from its clamp on.
 Cloth quarter_circle(Division division, int cells) {
   constexpr double radius = 2 / std::numbers::pi;
   test::Sheet sheet = test::clamped_strip(division, cells, cells / 4, 1);
@@ -181,7 +181,7 @@ Cloth quarter_circle(Division division, int cells) {
   return test::cloth_of(sheet, 1);
 }
 
-/// How far the tip of a quarter circle of unit length sinks under a weight of 1 for each area, small against D = 1.
+/// Returns the sag of the tip of a quarter circle of unit length under a unit weight per area, small against D = 1.
 double curved_tip(const Cloth& cloth) {
   const SmallBending unknowns(cloth, 1);
   const auto count = unknowns.masses.size();
@@ -223,7 +223,7 @@ double curved_tip(const Cloth& cloth) {
   return sum / tips;
 }
 
-// By Castigliano: δ = ∫ M m/D ds, M the moment of the weight beyond, m that of a unit load at the tip.
+// By Castigliano: δ = ∫ M m/D ds, with M the moment of the weight beyond, m that of a unit load at the tip.
 TEST_P(OnEveryMesh, ACurvedStripSinksAsACurvedBeam) {
   constexpr int parts = 2000;
   const double radius = 2 / std::numbers::pi, end = std::numbers::pi / 2;

@@ -1,4 +1,4 @@
-// Bending energies against what a rolled sheet holds, and what resistance to bending does to a cloth.
+// Bending energies compared with a rolled sheet's, and effects of bending resistance on a cloth.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ namespace {
 
 constexpr double rigidity = 0.7;
 
-/// A flat sheet of n×n cells whose inner vertices are moved by up to a third of a cell, its diagonals chosen at random.
+/// Makes a flat sheet of n×n cells with inner vertices moved by up to a third of a cell and random diagonals.
 Mesh uneven_grid(int n) {
   Mesh mesh = make_grid(n, n);
   mesh.uvs.clear();
@@ -43,7 +43,7 @@ Mesh uneven_grid(int n) {
   return mesh;
 }
 
-/// The plane rolled around a cylinder of radius R, around an axis at an angle to the y axis.
+/// Rolls the plane onto a cylinder of radius R, whose axis is at an angle to the y axis.
 Vertices rolled(const Vertices& flat, double radius, double angle) {
   Vertices x = flat;
   for (Eigen::Index i = 0; i < flat.rows(); ++i) {
@@ -59,7 +59,7 @@ double bending_energy(const Cloth& cloth, const Vertices& x) {
   return BendingEnergy(curvature_elements(cloth, rigidity), cloth.vertex_count()).add_gradient(x, 0, ignored);
 }
 
-/// What a sheet of 2 m × 2 m rolled to the radius holds: ½ D A/R².
+/// Returns the energy of a sheet of 2 m × 2 m rolled to the radius: ½ D A/R².
 double analytic_energy(double radius) { return 0.5 * rigidity * 4 / (radius * radius); }
 
 struct Roll {
@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(, RolledSheet,
                          [](const auto& tested) { return tested.param.name; });
 
 // The border, where a triangle has fewer hinges, is a share of 1/n of the sheet: the error halves with the cells, and
-// extrapolated by that order (Richardson) it is gone.
+// Richardson extrapolation of that order removes it.
 TEST_P(RolledSheet, HoldsTheAnalyticBendingEnergy) {
   const double angle = GetParam().degrees * std::numbers::pi / 180;
   for (const double radius : {0.8, 3.0}) {
@@ -109,7 +109,7 @@ TEST(BendingEnergy, IsZeroForEveryPlaceAndDirectionOfAFlatSheet) {
   EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-9);
 }
 
-// A rest shape that is rolled already is at rest, at its own radius only.
+// A rolled rest shape has no energy, but only at its own radius.
 TEST(BendingEnergy, IsZeroForARolledRestShape) {
   const Mesh flat = uneven_grid(20);
   Mesh mesh = flat;
@@ -121,8 +121,8 @@ TEST(BendingEnergy, IsZeroForARolledRestShape) {
   EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-9);
 }
 
-// Unrolled by half or altogether, the curvature is off by half of 1/R or all of it; to the first order of the cells, as
-// the border's triangles and what is along the triangle where it is flat again are.
+// Unrolled half-way or completely, the curvature differs by half of 1/R or by 1/R; to the first order of the cell size,
+// because of the border's triangles and the parts along a triangle that are flat again.
 TEST(BendingEnergy, OfARolledRestShapeIsThatOfWhatItIsUnrolledBy) {
   constexpr double radius = 0.8, angle = 0.4;
   std::array<std::vector<double>, 2> ratios;
@@ -166,7 +166,7 @@ TEST(Hinges, OfThreeSheetsAtAnEdgeAreTheirThreePairs) {
   EXPECT_EQ(cross_springs(cloth, 1).size(), 3U + 3U);  // the shared edge's and the diagonals'
 }
 
-// Semi-implicit Euler evaluates the energy as a force: its safe step has to know.
+// Semi-implicit Euler evaluates the energy as a force, so its safe step must include bending.
 TEST(SafeStep, IncludesBending) {
   SimulationSettings settings = setup(cloth_of(make_grid(20, 20), 1, 1e-3, {0, 20}), Method::semi_implicit, 1);
   settings.effects = {Bending{.rigidity = 1}};
@@ -191,7 +191,7 @@ TEST(SafeStep, IncludesBending) {
 class BentStrip : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, BentStrip, testing::ValuesIn(all_methods), method_name);
 
-// Of a strip clamped at one end, the other end sinks by ρ g L⁴/(8 D) where that is small: Euler and Bernoulli's beam.
+// The free end of a clamped strip sags by ρ g L⁴/(8 D) if that is small: Euler and Bernoulli's beam.
 TEST_P(BentStrip, SinksAsABeamDoes) {
   constexpr int columns = 24, rows = 3;
   constexpr double length = 1, width = 0.125, mass = 0.05, sag = 0.03, g = 9.8;
@@ -207,10 +207,10 @@ TEST_P(BentStrip, SinksAsABeamDoes) {
   SimulationSettings settings = setup(cloth_of(mesh, mass, 200, clamp), GetParam(), 0.01);
   settings.integrator.tolerance = 1e-7;
   settings.integrator.max_iterations = 2000;
-  // The weight of a metre of the strip; as the masses are lumped, those at the tip are as large as all others.
+  // The weight per metre of the strip; with lumped masses, those at the tip are as large as all others.
   const double load = g * mass / (columns + 1) / cell / width;
   const double bending = load * std::pow(length, 4) / (8 * sag);
-  const double tip_load = g * mass / (columns + 1) / 2 / width;  // the tip's mass is half a cell's too much
+  const double tip_load = g * mass / (columns + 1) / 2 / width;  // the tip's mass is too large by half a cell's
   const double expected = sag + tip_load * std::pow(length, 3) / (3 * bending);
   settings.effects = {Gravity{}, Bending{.rigidity = bending}, Damping{.factor = 1e-9}};
   if (GetParam().is_explicit()) settings.step = 0.95 * safe_step(make_system(settings));

@@ -1,4 +1,4 @@
-// Bodies: what lies on a mesh, what it carries along, and that nothing gets through it.
+// Bodies: cloth rests on a mesh, is carried along, and never passes through.
 
 #include <gtest/gtest.h>
 
@@ -16,10 +16,10 @@ namespace {
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-constexpr double earth_gravity = 9.8;     // the default [m/s²]
-constexpr double layer_thickness = 0.02;  // thickness [m]
+constexpr double earth_gravity = 9.8;     // default gravity [m/s²]
+constexpr double layer_thickness = 0.02;  // contact thickness [m]
 
-/// A sphere of triangles that divide those of an octahedron, with the vertices on it.
+/// Makes a sphere by dividing an octahedron's triangles and projecting the vertices.
 Mesh ball(double radius, int divisions) {
   Mesh mesh;
   std::vector<RowVector3d> points;
@@ -54,7 +54,7 @@ std::shared_ptr<const MeshMotion> still(Mesh mesh) {
   return std::make_shared<MeshMotion>(MeshMotion{.mesh = std::move(mesh)});
 }
 
-/// A square cloth of that side around the z axis.
+/// Makes a square cloth around the z axis.
 Cloth square(double side, int cells, double height) {
   Mesh mesh = make_grid(cells, cells);
   mesh.positions *= side / 2;
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(With, Bodies, testing::ValuesIn(all_methods), method_na
 TEST_P(Bodies, TheFaceOfABoxIsAGround) {
   const double tangent = 0.5;
   const Vector3d up = Vector3d(tangent, 0, 1).normalized(), down = Vector3d(1, 0, -tangent).normalized();
-  // Side by side on its layer_thickness and above it, some of them moving; across the diagonal of the face, too.
+  // Vertices on the contact layer and above it, some of them moving; also across the face's diagonal.
   Vertices x(4, 3);
   for (int i = 0; i < 4; ++i) {
     x.row(i) = ((layer_thickness - 0.002 + 0.01 * (i % 2)) * up + (0.1 * i - 0.2) * Vector3d::UnitY()).transpose();
@@ -153,7 +153,7 @@ TEST_P(Bodies, ABallOfTrianglesIsASphere) {
 }
 
 TEST_P(Bodies, ACornerDoesNotPokeThroughAClothThatIsCoarserThanIt) {
-  // One cell, whose vertices are far away from a cube that stands on its corner.
+  // One cell, whose vertices are far from a cube that stands on its corner.
   SimulationSettings s = settings(square(1, 1, 0.12), 0.01);
   Body cube = body();
   cube.thickness = 0.01;
@@ -166,7 +166,7 @@ TEST_P(Bodies, ACornerDoesNotPokeThroughAClothThatIsCoarserThanIt) {
   for (int step = 0; step < 40; ++step) {
     simulation.step();
     const Vertices& x = simulation.state().x;
-    // Of the triangle that is above the tip, in whose plane it must not be reached.
+    // The plane of the triangle above the tip must stay out of the tip's reach.
     for (const Triangle& t : s.cloth.triangles) {
       const RowVector3d a = x.row(t[0]), u = x.row(t[1]) - a, v = x.row(t[2]) - a;
       const RowVector3d to = RowVector3d(0.05, -0.1, tip) - a;
@@ -179,7 +179,7 @@ TEST_P(Bodies, ACornerDoesNotPokeThroughAClothThatIsCoarserThanIt) {
 }
 
 TEST_P(Bodies, WhatTurnsCarriesAlongWithTheSpeedThatItHasThere) {
-  // On a turntable at 0.5 m from its axis: until it is as fast, friction accelerates by µ g.
+  // On a turntable at 0.5 m from its axis: until it has that speed, friction accelerates by µ g.
   SimulationSettings s = settings(loose(RowVector3d(0.5, 0, layer_thickness)), 0.005);
   Body table = body();
   table.box = Vector3d(2, 2, 0.2);
@@ -198,7 +198,7 @@ TEST_P(Bodies, WhatTurnsCarriesAlongWithTheSpeedThatItHasThere) {
 }
 
 TEST_P(Bodies, AShapeThatChangesCarriesAlong) {
-  // A sheet that rises by 0.3 m/s where the vertex is, and stretches sideways under it by as much.
+  // A sheet that rises by 0.3 m/s at the vertex, and stretches sideways under it as fast.
   auto motion = std::make_shared<MeshMotion>(MeshMotion{.mesh = make_grid(3, 3)});
   motion->times = {0, 1};
   motion->samples = {motion->mesh.positions, motion->mesh.positions};

@@ -1,4 +1,4 @@
-// Bodies and cloths that move far in a step, and what is remembered from one step to the next.
+// Fast bodies and cloths, and data remembered from one step to the next.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-/// A square cloth of that side around the z axis.
+/// Makes a square cloth around the z axis.
 Cloth square_of(double side, int cells, double height) {
   Mesh mesh = make_grid(cells, cells);
   mesh.positions *= side / 2;
@@ -26,7 +26,7 @@ class BodiesOnTheWay : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, BodiesOnTheWay, testing::ValuesIn(all_methods), method_name);
 
 TEST_P(BodiesOnTheWay, WhatComesFromTheSideDoesNotGoThrough) {
-  // In one step from beside a sheet, above it, to below it: where the step begins and where it ends nothing is near.
+  // In one step from beside a sheet, above it, to below it: nothing is near at the start and the end of the step.
   SimulationSettings s = contact_settings(GetParam(), square_of(0.2, 2, 0), 0.01);
   s.effects = {};
   s.cloth.positions.rowwise() += RowVector3d(-1.2, 0.03, 0.1);

@@ -7,7 +7,7 @@
 
 namespace drape::test {
 
-/// A cloth under gravity, solved to convergence, so that only the physics is left.
+/// Makes a cloth under gravity, solved to convergence, so that solver errors are negligible.
 inline SimulationSettings contact_settings(Solver how, Cloth cloth, double step) {
   SimulationSettings result = setup(std::move(cloth), how, step);
   result.integrator.tolerance = 1e-13;
@@ -16,7 +16,7 @@ inline SimulationSettings contact_settings(Solver how, Cloth cloth, double step)
   return result;
 }
 
-/// Vertices that no spring joins, of masses from 0.5 to 2 kg.
+/// Makes vertices without springs, with masses from 0.5 to 2 kg.
 inline Cloth loose(const Vertices& positions) {
   Cloth cloth;
   cloth.positions = positions;

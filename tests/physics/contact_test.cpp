@@ -1,4 +1,4 @@
-// Ground and spheres: what holds a cloth, what it slides on, and what carries it along.
+// Ground and spheres: rest, sliding, and being carried along.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-constexpr double g = 9.8;           // the default gravity [m/s²]
+constexpr double g = 9.8;           // default gravity [m/s²]
 constexpr double thickness = 0.02;  // [m]
 
 class Contact : public testing::TestWithParam<NamedMethod> {
@@ -24,18 +24,18 @@ class Contact : public testing::TestWithParam<NamedMethod> {
     return contact_settings(GetParam(), std::move(cloth), step);
   }
 
-  /// A ground that goes down by tan θ along x, through the origin.
+  /// Makes a ground through the origin that descends by tan θ along x.
   Ground slope(double tangent, double friction) const {
     return {.normal = Vector3d(tangent, 0, 1), .thickness = thickness, .friction = friction};
   }
 };
 INSTANTIATE_TEST_SUITE_P(With, Contact, testing::ValuesIn(all_methods), method_name);
 
-/// The unit normal of that slope, and its direction down.
+/// Return the unit normal of that slope, and its downhill direction.
 Vector3d up_from(double tangent) { return Vector3d(tangent, 0, 1).normalized(); }
 Vector3d down_along(double tangent) { return Vector3d(1, 0, -tangent).normalized(); }
 
-/// A vertex that lies on the slope.
+/// Makes a vertex that lies on the slope.
 Cloth resting_on(double tangent) { return loose((thickness * up_from(tangent)).transpose()); }
 
 TEST_P(Contact, WhatRestsOnASlopeWithinTheFrictionConeStays) {
@@ -54,7 +54,7 @@ TEST_P(Contact, BeyondTheFrictionConeItSlides) {
   for (int step = 0; step < 100; ++step) simulation.step();
   const double sine = tangent / std::hypot(1, tangent), cosine = 1 / std::hypot(1, tangent);
   const double speed = g * (sine - friction * cosine);  // after one second
-  // Friction holds a vertex for the first step of a second-order scheme, on whose way it has half of its acceleration.
+  // In its first step a second-order scheme still holds the vertex: the speed may lag by half a step's gain.
   const double held = GetParam().second_order() ? g * sine * 0.01 / 2 : 1e-9;
   EXPECT_NEAR((simulation.state().v.row(0) * down_along(tangent)).value(), speed, held);
   EXPECT_NEAR(simulation.state().v.row(0).norm(), speed, held);
@@ -75,7 +75,7 @@ TEST_P(Contact, ASlidingVertexIsStoppedAndNotTurnedBack) {
 TEST_P(Contact, AClothStaysOnASlopeAsAWhole) {
   const double tangent = 0.3;
   Cloth cloth = cloth_of(make_grid(6, 6), 0.7, 60, {});
-  // Along the slope, on the layer.
+  // Along the slope, on the contact layer.
   const Vertices flat = cloth.positions;
   for (int i = 0; i < cloth.vertex_count(); ++i) {
     cloth.positions.row(i) =
@@ -98,7 +98,7 @@ TEST_P(Contact, PinsAreNotMovedByFriction) {
   EXPECT_TRUE(same_bits(simulation.state().x, cloth.positions));
 }
 
-/// A huge ball under a vertex that rests on it, moving along x.
+/// Makes a huge ball that moves along x under a vertex resting on it.
 Sphere moving_floor(double friction) {
   return {.center = Vector3d(0, 0, -1e4),
           .radius = 1e4,
@@ -123,7 +123,7 @@ TEST_P(Contact, AMovingSphereCarriesAlongWhatLiesOnIt) {
   EXPECT_NEAR(slippery.state().v(0, 0), 0, 1e-3);
 }
 
-// A push is that of the start of a step, or of its middle with a scheme of second order.
+// A push is evaluated at the start of a step, or at its middle by a second-order scheme.
 TEST_P(Contact, ASphereThatPushesDoesSoFromWhereItIsAtItsTime) {
   SimulationSettings s = settings(loose(RowVector3d(0, 0, 0)), 0.01);
   const double then = GetParam().second_order() ? 0.015 : 0.01;
@@ -138,10 +138,10 @@ TEST_P(Contact, ASphereThatPushesDoesSoFromWhereItIsAtItsTime) {
   EXPECT_GT(simulation.state().v(0, 0), 0.1);
 }
 
-/// Where the middle of a floor is that goes aside faster and faster, and up.
+/// Returns the middle of a floor that accelerates sideways and rises.
 Vector3d accelerating_place(double time) { return {3 * time + 10 * time * time, 0, time - 1e4}; }
 
-/// Steps a vertex that lies on that floor, a huge ball, with the floor's velocity at the start, and sticks to it.
+/// Steps a vertex that lies on that floor, a huge ball, with the floor's initial velocity, and sticks to it.
 void expect_carried(SimulationSettings s) {
   constexpr int steps = 20;
   std::vector<Keyframe> path;
@@ -160,7 +160,7 @@ TEST_P(Contact, WhatSticksToAnAcceleratingSphereHasItsVelocityInTheSameStep) {
   expect_carried(settings(loose(RowVector3d(0, 0, 0)), 0.01));
 }
 
-// Semi-implicit Euler moves with the velocities that contact leaves: damping comes before it.
+// Semi-implicit Euler moves with the velocities after contact: damping comes before it.
 TEST(SemiImplicitContact, HoldsWhatIsDamped) {
   SimulationSettings s = setup(loose(RowVector3d(0, 0, 0)), Method::semi_implicit, 0.01);
   s.effects = {Gravity{}, Damping{.factor = 0.2}};

@@ -38,7 +38,7 @@ TEST(Divergence, NamesTheStepAndTheFastestVertex) {
 class Stability : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, Stability, testing::ValuesIn(implicit_methods), method_name);
 
-// The pins are at most a rest length per spring away, so a cloth that hangs in balance is within a few metres of them.
+// The pins are at most a rest length per spring away, so a hanging cloth in balance is within a few metres of them.
 TEST_P(Stability, ImplicitMethodsStandSuchAStep) {
   Simulation simulation(far_too_large_step(GetParam()));
   for (int step = 0; step < 200; ++step) simulation.step();

@@ -1,5 +1,5 @@
-// Cusick's drape test: a disc of 30 cm on a support of 18 cm. What of the ring beyond the support its shadow covers
-// belongs to the fabric, not to the mesh.
+// Cusick's drape test: a disc of 30 cm on a support of 18 cm. The part of the ring beyond the support that the shadow
+// covers depends on the fabric, not on the mesh.
 
 #include <gtest/gtest.h>
 
@@ -18,10 +18,10 @@ namespace {
 
 constexpr double support = 0.09, edge = 0.15;  // radii [m]
 
-/// The number of the first vertex of a ring: the k-th has 6k vertices, and ring 0 is the centre.
+/// Returns the number of the first vertex of a ring: the k-th has 6k vertices, and ring 0 is the centre.
 int first_of(int ring) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1); }
 
-/// A disc of rings at multiples of `cell`, in which every triangle is about equilateral.
+/// Makes a disc of rings at multiples of `cell`, with nearly equilateral triangles.
 Mesh disc(double cell) {
   const int rings = static_cast<int>(std::lround(edge / cell));
   Mesh mesh;
@@ -43,14 +43,14 @@ Mesh disc(double cell) {
   return mesh;
 }
 
-/// The area of a cloth's shadow from above, in squares of half a millimetre [m²].
+/// Returns the area of a cloth's shadow from above, in squares of half a millimetre [m²].
 double shadow(const Cloth& cloth, const Vertices& x) {
   constexpr double pixel = 5e-4;
   constexpr int size = 2 * 320;
   std::vector<char> covered(std::size_t{size} * size, 0);
   const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); };
   for (const Triangle& t : cloth.triangles) {
-    Eigen::Matrix<double, 3, 2> p;  // in pixels
+    Eigen::Matrix<double, 3, 2> p;  // [pixels]
     for (int k = 0; k < 3; ++k) p.row(k) = x.row(t[static_cast<std::size_t>(k)]).leftCols(2).array() / pixel + size / 2;
     const Eigen::RowVector2d low = p.colwise().minCoeff(), high = p.colwise().maxCoeff();
     for (int j = std::max(0, int(low[1])); j <= std::min(size - 1, int(high[1])); ++j) {
@@ -70,7 +70,7 @@ double shadow(const Cloth& cloth, const Vertices& x) {
   return static_cast<double>(std::ranges::count(covered, 1)) * pixel * pixel;
 }
 
-/// The share of the ring beyond the support that a fabric's shadow covers when it has come to rest.
+/// Returns the fraction of the ring beyond the support that a fabric's shadow covers at rest.
 double drape_coefficient(const Fabric& fabric, double cell, int seed) {
   const Mesh flat = disc(cell);
   std::vector<int> held;
@@ -80,7 +80,7 @@ double drape_coefficient(const Fabric& fabric, double cell, int seed) {
   Cloth cloth = test::cloth_of(flat, 1, 1, held);
   share_mass_by_area(fabric.density, cloth);
   stiffen_by_area(fabric.modulus, cloth);
-  // As a disc is never put down quite flat: a wave of every number of folds, of a tenth of a millimetre.
+  // Perturbed like a real disc: a wave of every number of folds, of a tenth of a millimetre.
   test::Random random(static_cast<std::uint64_t>(seed));
   std::vector<double> phases;
   for (int n = 0; n < 12; ++n) phases.push_back(random.between(0, 2 * std::numbers::pi));

@@ -15,7 +15,7 @@ INSTANTIATE_TEST_SUITE_P(With, Effects, testing::ValuesIn(all_methods), method_n
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-/// Vertices that no spring joins: each moves by the forces on it alone.
+/// Makes vertices without springs: each moves by its own forces.
 Cloth loose_vertices(const Vertices& positions) {
   Cloth cloth;
   cloth.positions = positions;
@@ -24,7 +24,7 @@ Cloth loose_vertices(const Vertices& positions) {
   return cloth;
 }
 
-/// What accelerates each vertex within the first step, n×3.
+/// Returns each vertex's acceleration in the first step, n×3.
 Vertices first_accelerations(const SimulationSettings& settings) {
   Simulation simulation(settings);
   simulation.step();
@@ -66,7 +66,7 @@ TEST_P(Effects, SpherePushesOutwardsWithinItsReach) {
       1, 2, 3.52,      // between the radius and the reach
       1, 2 - 0.55, 3,  // on the reach
       5, 2, 3,         // outside
-      1, 2, 3,         // the centre itself, from where no direction leads outwards
+      1, 2, 3,         // the centre itself, without an outward direction
       1.03, 2.04, 3;   // 0.05 away, in the direction (0.6, 0.8, 0)
   SimulationSettings settings = setup(loose_vertices(x), GetParam(), 0.01);
   settings.effects = {Sphere{.center = Vector3d(1, 2, 3), .radius = 0.5, .scale = 1.1, .stiffness = 1000}};
@@ -128,7 +128,7 @@ TEST(EffectValues, AreEvaluatedInTheOrderOfTheRegistryHoweverTheyAreAdded) {
   EXPECT_EQ(effects[2].as<Sphere>()->radius, 1) << "of one type in the order in which they are added";
 }
 
-/// Of a type that is not in the registry.
+/// An effect of a type outside the registry.
 struct Push {
   static constexpr std::string_view name = "push";
   void describe(Keys&) {}

@@ -10,7 +10,7 @@
 namespace drape::test {
 namespace {
 
-/// A value rounded to six significant digits is the printed one or its neighbour.
+/// Expects a value that rounds, to six significant digits, to the printed one or its neighbour.
 void expect_printed(double value, double printed, const char* what, int step) {
   const double last_digit = std::pow(10, std::floor(std::log10(std::abs(printed))) - 5);
   EXPECT_LE(std::abs(value - printed), 1.5 * last_digit) << what << " at step " << step;
@@ -21,7 +21,7 @@ TEST(EnergyLog, HasTheHomeworksNumbers) {
     int step;
     double kinetic, gravity, elastic;
   };
-  // The elastic energy before step 10 is below the rounding of the lengths it is computed from.
+  // The elastic energy before step 10 is below the rounding error of the lengths.
   constexpr Row rows[] = {
       {1, 4.78023e-05, -9.56045e-05, 0},        {5, 0.00119506, -0.00143407, 0},
       {10, 0.00478022, -0.00525825, 6.002e-10}, {13, 0.00807857, -0.0087, 4.016e-09},

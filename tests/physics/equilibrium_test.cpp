@@ -6,7 +6,7 @@
 namespace drape::test {
 namespace {
 
-/// Vertices one above the other, 1/4 m apart, joined by springs; the first is pinned.
+/// Makes vertices one above the other, 1/4 m apart, joined by springs; the first is pinned.
 Cloth chain(int springs, double mass, double stiffness) {
   Cloth cloth;
   const int count = springs + 1;
@@ -24,7 +24,7 @@ Cloth chain(int springs, double mass, double stiffness) {
 class Equilibrium : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, Equilibrium, testing::ValuesIn(all_methods), method_name);
 
-/// At rest every spring is longer than its rest length by the weight below it over its stiffness.
+/// Expects that at rest every spring is extended by the weight below it over its stiffness.
 void expect_hookes_law(int springs, Solver solver) {
   constexpr double mass = 0.1, stiffness = 50;
   SimulationSettings settings = setup(chain(springs, mass, stiffness), solver, 0.01);
@@ -33,7 +33,7 @@ void expect_hookes_law(int springs, Solver solver) {
   settings.integrator.max_iterations = 1000;
   settings.effects = {Gravity{}, Damping{.factor = 1e-4}};
   Simulation simulation(settings);
-  // The slowest motion of 5 springs takes 1 s to and fro, and loses a factor 1e-2 in each second.
+  // The slowest mode of 5 springs has a period of 1 s, and loses a factor 1e-2 in each second.
   for (int step = 0; step < 1000; ++step) simulation.step();
 
   const Vertices& x = simulation.state().x;

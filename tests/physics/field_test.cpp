@@ -1,4 +1,4 @@
-// Fields of acceleration by formula, against motions that are known exactly.
+// Fields of acceleration by formula, compared with exactly known motions.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using test::setup;
 
 constexpr double mass = 0.5;
 
-/// Vertices by themselves at these places, each with this velocity.
+/// Makes isolated vertices at these positions, each with this velocity.
 Cloth dots(const Vertices& places, const Eigen::RowVector3d& velocity) {
   Cloth cloth;
   cloth.positions = cloth.rest = places;
@@ -67,8 +67,7 @@ TEST_P(FieldMotion, ASpringInACentrifugalFieldHasAKnownLength) {
   EXPECT_NEAR(simulation.state().x.row(1).norm(), k * rest / (k - mass * square_of_turning), 1e-6);
 }
 
-// Around a centre that attracts with µ/r² what circles once in T = 2π √(r³/µ) is back after T, up to the scheme's
-// order.
+// A vertex on a circle around a centre that attracts with µ/r² returns after T = 2π √(r³/µ), up to the scheme's order.
 TEST_P(FieldMotion, WhatCirclesAnAttractorComesBack) {
   constexpr double radius = 1.5, mu = 2;
   const double turn = 2 * std::numbers::pi * std::sqrt(radius * radius * radius / mu);
@@ -117,7 +116,7 @@ TEST_P(FieldMotion, OfNumbersIsAWind) {
   EXPECT_TRUE(test::same_bits(field.state().x, wind.state().x));
 }
 
-// Nobody can tell how steep a formula is, so nobody can tell which step is safe.
+// The slope of a formula is unknown, and so is the safe step.
 TEST(Field, OfThePlaceIsRefusedByExplicitMethodsWithoutABound) {
   const Field field{.acceleration = {"-5*x", "0", "0"}};
   for (const Method method : {Method::semi_implicit, Method::verlet}) {

@@ -1,4 +1,4 @@
-// Cloths that nothing holds: what falls, drifts and turns freely is known exactly.
+// Free cloths: fall, drift and rotation are known exactly.
 
 #include <gtest/gtest.h>
 
@@ -17,14 +17,14 @@ namespace {
 class FreeMotion : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, FreeMotion, testing::ValuesIn(all_methods), method_name);
 
-/// A cloth of uneven masses without pins.
+/// Makes a cloth of uneven masses without pins.
 Cloth uneven_cloth(double stiffness) {
   Cloth cloth = cloth_of(irregular_mesh(8), 1, stiffness, {});
   for (int i = 0; i < cloth.vertex_count(); ++i) cloth.masses[i] *= 1 + 0.5 * std::sin(i);
   return cloth;
 }
 
-/// The same, drifting, turning and deforming: the velocities are no rigid motion.
+/// Makes the cloth drift, turn and deform, not as a rigid motion.
 Cloth moving_cloth(double stiffness) {
   Cloth cloth = uneven_cloth(stiffness);
   for (int i = 0; i < cloth.vertex_count(); ++i) {
@@ -53,9 +53,9 @@ TEST_P(FreeMotion, FallsAsTheSumOfItsStepsSays) {
   Simulation simulation(settings);
   for (int step = 0; step < steps; ++step) simulation.step();
 
-  // v = n h a, and x = x₀ + (1 + … + n) h² a in both schemes of Euler's and x₀ + n² h²/2 a in the others. Each step
-  // rounds x, of about 1 m, once, and the implicit methods find v as a difference of such numbers: an error that later
-  // steps carry on.
+  // v = n h a, and x = x₀ + (1 + … + n) h² a in both Euler schemes and x₀ + n² h²/2 a in the others. Each step rounds
+  // x, of about 1 m, once. Implicit methods compute v as a difference of such numbers, an error that later steps carry
+  // on.
   const double rounding = 4 * steps * steps * std::numeric_limits<double>::epsilon();
   const int more = GetParam().second_order() ? 0 : 1;
   const Vertices fallen = settings.cloth.positions.rowwise() + h * h * steps * (steps + more) / 2 * acceleration;
@@ -64,9 +64,9 @@ TEST_P(FreeMotion, FallsAsTheSumOfItsStepsSays) {
   EXPECT_LT((simulation.state().v.rowwise() - velocity).cwiseAbs().maxCoeff(), rounding / h);
 }
 
-// Springs pull with opposite forces. However early a step stops and however coarse its solves are (factors are in
-// single precision), what is left of its momentum is what rounding does: of positions, of about 1 m, of which the
-// implicit methods find v as a difference over h.
+// Springs pull with opposite forces. Even if a step stops early and solves coarsely (factors are in single precision),
+// the momentum changes only by rounding: of positions of about 1 m, whose differences over h are the velocities of
+// implicit methods.
 TEST_P(FreeMotion, KeepsItsMomentumHoweverLooselyItIsSolvedFor) {
   constexpr int steps = 50;
   const double h = GetParam().is_explicit() ? 0.001 : 0.02;
@@ -87,7 +87,7 @@ class ExplicitMotion : public testing::TestWithParam<Method> {};
 INSTANTIATE_TEST_SUITE_P(With, ExplicitMotion, testing::Values(Method::semi_implicit, Method::verlet),
                          [](const auto& method) { return method.param == Method::verlet ? "Verlet" : "SemiImplicit"; });
 
-// Forces along the springs turn nothing: the explicit methods move x by a multiple of v, so Σ m x × v changes only by
+// Forces along the springs have no torque: explicit methods move x by a multiple of v, so Σ m x × v changes only by
 // Σ x × force = 0.
 TEST_P(ExplicitMotion, KeepsItsAngularMomentum) {
   SimulationSettings settings = setup(moving_cloth(180), GetParam(), 0.001);
@@ -100,9 +100,9 @@ TEST_P(ExplicitMotion, KeepsItsAngularMomentum) {
   EXPECT_LT((after - before).norm(), 10 * steps * std::numeric_limits<double>::epsilon() * before.norm());
 }
 
-// Two masses at the ends of a stiff spring that turns by θ in a step: the velocity of a step of backward Euler is the
-// chord's, the spring pulls along the place where the step ends, and so sin(θ' + θ) = 2 sin θ', or θ' = θ − θ³ + O(θ⁵):
-// a share of hω² of the angular momentum is lost in a second. SDIRK2 loses none of that order.
+// Two masses at the ends of a stiff spring turn by θ in a step. Backward Euler's velocity is the chord's, and the
+// spring pulls along its direction at the step's end, so sin(θ' + θ) = 2 sin θ', or θ' = θ − θ³ + O(θ⁵): a share of hω²
+// of the angular momentum is lost per second. SDIRK2 loses none of that order.
 TEST(FreeMotionOfARotor, LosesTheAngularMomentumThatDocsSay) {
   constexpr double h = 0.002, omega = 4.64, time = 1;
   for (const TimeScheme scheme : {TimeScheme::backward_euler, TimeScheme::sdirk2}) {
@@ -136,15 +136,15 @@ TEST_P(FreeMotion, IsDampedAlikeAtAnyStepLength) {
     Simulation simulation(settings);
     const double before = simulation.energies().kinetic;
     for (int step = 0; step < steps; ++step) simulation.step();
-    const double expected = factor * factor * before;  // every velocity is the factor's part of what it was
+    const double expected = factor * factor * before;  // every velocity is reduced by the factor
     // Rounding x, of about 1 m, by half a unit changes v = Δx/h by that over h, once in every step.
     const double rounding = 10.0 * steps * steps * std::numeric_limits<double>::epsilon();
     EXPECT_NEAR(simulation.energies().kinetic, expected, rounding * expected) << "in " << steps << " steps";
   }
 }
 
-// Semi-implicit Euler moves with the velocity that is left, backward Euler damps the velocity it moved with, and the
-// schemes of second order do half of it before and half after.
+// Semi-implicit Euler moves with the damped velocity, backward Euler damps after the move, and second-order schemes do
+// half of it before and half after.
 TEST_P(FreeMotion, IsDampedBeforeTheSemiImplicitMoveAndAfterTheImplicitOne) {
   constexpr double h = 0.1, factor = 0.2;
   SimulationSettings settings = setup(cloth_of(make_grid(2, 2), 1, 0.1, {}), GetParam(), h);

@@ -1,5 +1,5 @@
-// A cloth by density, modulus and rigidity is the same cloth on any mesh: against what elasticity says of strips and
-// sheets.
+// A cloth defined by density, modulus and rigidity is independent of its mesh: compared with elasticity theory for
+// strips and sheets.
 
 #include <gtest/gtest.h>
 
@@ -20,9 +20,9 @@ using test::cloth_of;
 using test::setup;
 
 constexpr double g = 9.8, density = 0.2;
-constexpr double weight = density * g;  // of an area [N/m²]
+constexpr double weight = density * g;  // per area [N/m²]
 
-/// A cloth of a mesh, by area.
+/// Makes a cloth of a mesh from values per area.
 Cloth by_area(const Mesh& mesh, double modulus, std::vector<int> pins) {
   Cloth cloth = cloth_of(mesh, 1, 1, std::move(pins));
   share_mass_by_area(density, cloth);
@@ -30,7 +30,7 @@ Cloth by_area(const Mesh& mesh, double modulus, std::vector<int> pins) {
   return cloth;
 }
 
-/// Where a cloth comes to rest: in steps so long that backward Euler takes all motion out.
+/// Returns a cloth at rest, after steps so long that backward Euler removes all motion.
 Vertices at_rest(Cloth cloth, Effects effects, Method method = Method::quasi_newton) {
   SimulationSettings settings = setup(std::move(cloth), method, 0.5);
   settings.effects = std::move(effects);
@@ -45,7 +45,7 @@ Vertices at_rest(Cloth cloth, Effects effects, Method method = Method::quasi_new
   return simulation.state().x;
 }
 
-/// The grid from the origin to (length, width) in the plane of x and y.
+/// Makes a grid from the origin to (length, width) in the xy plane.
 Mesh rectangle(int columns, int rows, double length, double width) {
   Mesh mesh = make_grid(columns, rows);
   mesh.positions.col(0) = ((mesh.positions.col(0).array() + 1) * (length / 2)).eval();
@@ -53,8 +53,8 @@ Mesh rectangle(int columns, int rows, double length, double width) {
   return mesh;
 }
 
-/// How far the tip of a clamped strip of unit length is from where the elastica's is. Its width is in as many cells as
-/// its length, by area: what a border of one cell is too soft falls with the cells too.
+/// Returns the distance of a clamped strip's tip from the elastica's, for unit length. Cells are square, with values
+/// per area: the error of a border of one cell, which is too soft, falls with the cell size too.
 double elastica_error(int cells, double lambda, double x, double z) {
   const double cell = 1.0 / cells;
   const int across = 2 * cells / 5;
@@ -68,12 +68,12 @@ double elastica_error(int cells, double lambda, double x, double z) {
 }
 
 struct Elastica {
-  double lambda, x, z;  // w L³/D, and the tip's place over L
+  double lambda, x, z;  // w L³/D, and the tip's position relative to L
 };
 constexpr std::array elasticas{Elastica{2, 0.9669, -0.2385}, Elastica{4, 0.8901, -0.4252},
                                Elastica{20, 0.4452, -0.8299}};
 
-// A strip clamped at one end bends under its own weight as the elastica does, to the second order of its cells.
+// A clamped strip bends under its own weight as the elastica does, to the second order of its cells.
 void expect_second_order(const Elastica& exact, int cells) {
   const double coarse = elastica_error(cells, exact.lambda, exact.x, exact.z);
   const double fine = elastica_error(2 * cells, exact.lambda, exact.x, exact.z);
@@ -85,7 +85,7 @@ class HeavyElastica : public testing::TestWithParam<Elastica> {};
 INSTANTIATE_TEST_SUITE_P(Of, HeavyElastica, testing::ValuesIn(elasticas));
 TEST_P(HeavyElastica, IsMetThreeTimesAsWellWithTwiceTenCells) { expect_second_order(GetParam(), 10); }
 
-/// How far the tip of a clamped strip of 40 cells sags, w L³/D = 1.
+/// Returns the sag of the tip of a clamped strip of 40 cells, w L³/D = 1.
 /// @param stiffness E L²/D
 double sag(test::Division division, double stiffness, Method method) {
   const test::Sheet sheet = test::clamped_strip(division, 40, 12, 1);
@@ -101,7 +101,7 @@ double sag(test::Division division, double stiffness, Method method) {
   return sum / tips;
 }
 
-// Cloth whose springs hardly stretch, and cloth whose springs are a hundred times as stiff, on whichever mesh.
+// Nearly inextensible cloth, and cloth with springs a hundred times stiffer, on every mesh.
 class HeavyStripOnEveryMesh : public testing::TestWithParam<test::Division> {};
 INSTANTIATE_TEST_SUITE_P(, HeavyStripOnEveryMesh, testing::ValuesIn(test::all_divisions()),
                          [](const auto& tested) { return test::name_of(tested.param); });
@@ -121,7 +121,7 @@ TEST(Catenary, IsWhatAStripWithoutRigidityHangsIn) {
   const Mesh flat = rectangle(cells, 1, 2, 2.0 / cells);
   std::vector<int> ends{0, cells, cells + 1, 2 * cells + 1};
   Cloth cloth = by_area(flat, 1e4 * weight, ends);
-  for (int i = 0; i < cloth.vertex_count(); ++i) {  // it starts folded like a V of the same length
+  for (int i = 0; i < cloth.vertex_count(); ++i) {  // starts folded into a V of the same length
     const double along = flat.positions(i, 0), half = along < 1 ? along : 2 - along;
     cloth.positions.row(i) << 0.6 * along, flat.positions(i, 1), -0.8 * half;
   }
@@ -129,8 +129,8 @@ TEST(Catenary, IsWhatAStripWithoutRigidityHangsIn) {
   EXPECT_NEAR(-rest.col(2).minCoeff(), 0.72556, 0.001);
 }
 
-/// Rows of equilateral triangles with this edge, about 1 m wide and high, the inner vertices moved by up to `uneven` of
-/// it.
+/// Makes rows of equilateral triangles with edge 1/count, about 1 m wide and high, with inner vertices moved by up to
+/// `uneven` edges.
 Mesh triangular_lattice(int count, double uneven) {
   const double edge = 1.0 / count, height = edge * std::sqrt(3.0) / 2;
   const int rows = 2 * static_cast<int>(std::lround(0.5 / height));
@@ -157,7 +157,7 @@ Mesh triangular_lattice(int count, double uneven) {
   return mesh;
 }
 
-/// What the springs hold for each area when the cloth is strained, by these parts along x, y and across.
+/// Returns the springs' energy per area of a cloth strained by these parts along x, y and in shear.
 double energy_by_area(const Cloth& cloth, double xx, double yy, double xy) {
   Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
   map(0, 0) += xx;
@@ -180,7 +180,7 @@ constexpr double modulus = 100, strain = 1e-5;
 constexpr double uniaxial = modulus / 2 * strain * strain;
 
 TEST(Modulus, IsTheStiffnessOfAGridAlongItsEdgesWhileShearIsFree) {
-  // The diagonals from (0, 1) to (1, 0) are not stretched where the shear makes up for half of the strain.
+  // The diagonals from (0, 1) to (1, 0) keep their length if the shear compensates half of the strain.
   EXPECT_NEAR(energy_by_area(by_area(make_grid(8, 8), modulus, {}), strain, 0, strain / 2), uniaxial, 1e-3 * uniaxial);
 }
 
@@ -210,7 +210,7 @@ TEST(Density, GivesEveryMeshTheMassOfItsArea) {
   }
 }
 
-/// How far the lower border of a sheet sinks that hangs by its upper one and is stretched by its own weight.
+/// Returns the sag of the lower border of a sheet that hangs by its upper one, stretched by its own weight.
 double sinks(Mesh mesh, double height) {
   mesh.positions.col(2) = mesh.positions.col(1).eval();  // upright
   mesh.positions.col(1).setZero();
@@ -225,8 +225,8 @@ double sinks(Mesh mesh, double height) {
   return sum / static_cast<double>(bottom.size());
 }
 
-// Its upper border cannot get narrower, so how far is between what a sheet sinks that can, ½ w H²/E, and one that
-// cannot anywhere; here it is only that cells do not matter.
+// Its upper border cannot contract, so the sag is between that of a sheet free to contract, ½ w H²/E, and that of one
+// that cannot contract at all. Only independence of the cell size is tested here.
 TEST(HungSheet, SinksByTheSameOnThreeRefinementsOfEachKindOfMesh) {
   for (const double uneven : {-1.0, 0.0, 0.2}) {  // a grid, and two lattices
     std::vector<double> depths;
@@ -237,7 +237,7 @@ TEST(HungSheet, SinksByTheSameOnThreeRefinementsOfEachKindOfMesh) {
     }
     EXPECT_NEAR(depths[0], depths[2], 0.02 * depths[2]) << uneven;
     EXPECT_NEAR(depths[1], depths[2], 0.02 * depths[2]) << uneven;
-    EXPECT_NEAR(depths[2], 1.0 / 40, 0.25 / 40) << uneven;  // of ½ w/E
+    EXPECT_NEAR(depths[2], 1.0 / 40, 0.25 / 40) << uneven;  // relative to ½ w/E
   }
 }
 

@@ -1,4 +1,4 @@
-// How the implicit step is minimised: downhill, no further than allowed, and honestly reported.
+// Minimisation of the implicit step: always downhill, within its iterations, and honestly reported.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ struct Problem {
   }
 };
 
-/// Where some iterations of a step get from a state.
+/// Result of some iterations of a step from a state.
 struct Outcome {
   State state;
   StepReport report;
@@ -50,7 +50,7 @@ Outcome iterate(SimulationSettings settings, const State& from, int max_iteratio
   return {simulation.state(), report, simulation.residual()};
 }
 
-/// The homework's cloth after some steps, then stopped by a tolerance that is never met.
+/// Makes settings of the homework's cloth with a tolerance that is never met.
 SimulationSettings endless(Solver solver, double stiffness) {
   SimulationSettings settings = homework(solver, 0.02, stiffness);
   settings.integrator.stop = StoppingRule::gradient;
@@ -75,9 +75,9 @@ TEST_P(Minimisation, NeverGoesUphill) {
       for (int iterations = 1; iterations <= 10; ++iterations) {
         const Outcome outcome = iterate(settings, start, iterations);
         EXPECT_LE(outcome.report.rise, 0);
-        if (outcome.report.kept < 1) continue;  // it is not at its last iterate, which had too much energy
+        if (outcome.report.kept < 1) continue;  // reduced because the last iterate had too much energy
         const double now = problem.value(outcome.state.x);
-        // A sum of 1700 positive terms is right to far better than 1e-13.
+        // A sum of 1700 positive terms is far more accurate than 1e-13.
         EXPECT_LE(now, before * (1 + 1e-13))
             << "iteration " << iterations << " from step " << step << " at " << stiffness << " N/m";
         before = now;
@@ -90,7 +90,7 @@ TEST_P(Minimisation, NeverGoesUphill) {
   }
 }
 
-// Taut springs this stiff are soft across and hard as soon as they turn: a full step of Newton's method overshoots.
+// Taut springs this stiff are soft across and hard once they turn: a full Newton step overshoots.
 TEST_P(Minimisation, NeverGoesUphillWhereAFullStepWould) {
   for (int seed = 1; seed <= 10; ++seed) {
     SimulationSettings settings = setup(cloth_of(make_grid(1, 1), 1, 1e6, {0, 1}), GetParam(), 0.1);
@@ -149,7 +149,7 @@ TEST_P(Minimisation, ChangeRuleWaitsForTheSecondIteration) {
 TEST_P(Minimisation, ChangeRuleMeasuresAllUnknownsTogether) {
   const State start = after(30, 180);
   SimulationSettings settings = endless(GetParam(), 180);
-  settings.integrator.stop = StoppingRule::change;  // on which Newton's iterates depend
+  settings.integrator.stop = StoppingRule::change;  // Newton's iterates depend on it
   std::vector<Vertices> iterates;
   for (int i = 1; i <= 8; ++i) iterates.push_back(iterate(settings, start, i).state.x);
   double smallest = (iterates[1] - iterates[0]).norm();
@@ -173,7 +173,7 @@ TEST_P(Minimisation, GradientRuleKeepsItsPromise) {
     const Outcome outcome = iterate(settings, start, 20'000);
     ASSERT_TRUE(outcome.report.converged);
     EXPECT_LT(outcome.residual, tolerance);
-    // The residual is the norm of the gradient where the cloth is now.
+    // The residual is the norm of the gradient at the cloth's current position.
     EXPECT_NEAR(outcome.residual, Problem(settings, start).gradient_norm(outcome.state.x), 1e-9);
     // One iteration fewer would not have been enough.
     const Outcome shorter = iterate(settings, start, outcome.report.iterations - 1);

@@ -21,7 +21,7 @@ INSTANTIATE_TEST_SUITE_P(With, MovingPins, testing::ValuesIn(all_methods), metho
 constexpr double h = 0.01;
 const std::vector<Keyframe> path{{0, {0, 0, 0}}, {0.1, {0.1, 0, 0.05}}, {0.3, {0, -0.1, 0}}};
 
-/// A small cloth on which everything acts that changes velocities, too.
+/// Makes a small cloth with all effects, including those that change velocities.
 SimulationSettings stormy(Solver solver, std::vector<int> pins) {
   SimulationSettings settings = setup(cloth_of(make_grid(6, 6), 1, 40, std::move(pins)), solver, h);
   settings.effects = {Gravity{}, Ground{.height = -0.3, .friction = 0.4},
@@ -84,7 +84,7 @@ TEST_P(MovingPins, HaveTheVelocityOfTheirMotion) {
   EXPECT_EQ(simulation.state().v.row(0).norm(), 0) << "after the last keyframe";
 }
 
-// A spring between a pin and a vertex, swung along: in the pin's frame, which moves steadily, physics is as at rest.
+// A cloth between uniformly moving pins: physics in their frame is as at rest.
 TEST_P(MovingPins, ASteadyMotionIsAsGoodAsRest) {
   SimulationSettings rest = setup(cloth_of(make_grid(3, 3), 1, 30, {0, 3}), GetParam(), h);
   rest.integrator.tolerance = 1e-13;
@@ -104,7 +104,7 @@ TEST_P(MovingPins, ASteadyMotionIsAsGoodAsRest) {
 }
 
 TEST_P(MovingPins, FlyFreelyOnceTheyAreReleased) {
-  // A cloth that is all pins and has no springs to pull on them: a parabola from the moment of the release.
+  // Pins only, without springs: a parabola from the moment of the release.
   Cloth cloth;
   cloth.positions = random_vertices(4, 3);
   cloth.velocities = Vertices::Zero(4, 3);
@@ -114,7 +114,7 @@ TEST_P(MovingPins, FlyFreelyOnceTheyAreReleased) {
   settings.effects = {Gravity{}, drape::MovingPins{.pins = {0, 2}, .keyframes = {{1, {2, 0, 1}}}, .release = 0.3}};
   Simulation simulation(settings);
   for (int step = 0; step < 80; ++step) simulation.step();
-  // 30 steps with the pin, then 50 of free fall: n(n+1)/2 h² g of Euler's, n²/2 h² g of the others.
+  // 30 steps with the pin, then 50 of free fall: n(n+1)/2 h² g for Euler's, n²/2 h² g for the others.
   const int more = GetParam().second_order() ? 0 : 1;
   const RowVector3d expected = RowVector3d(2, 0, 1) * 0.8 + RowVector3d(0, 0, -9.8) * h * h * 50 * (50 + more) / 2;
   for (const int pin : {0, 2}) {
@@ -133,7 +133,7 @@ TEST_P(MovingPins, AReleaseWithoutKeyframesDropsTheCloth) {
   EXPECT_LT(simulation.state().x(0, 2), settings.cloth.positions(0, 2));
 }
 
-// Everything that a step depends on is the state and its number, also across a release.
+// A step depends only on the state and its number, even across a release.
 TEST_P(MovingPins, AStepDependsOnTheStateAlone) {
   SimulationSettings settings = stormy(GetParam(), {0, 6, 48});
   settings.effects.add(

@@ -1,6 +1,6 @@
-// The methods that minimise the implicit step find the same minimum, where there is only one. A cloth that is crumpled
-// strongly within a step has several, of nearly the same g: there the methods may differ rightly. That is why the
-// states at k = 1800 N/m are of a motion in shorter steps, and the first on the sphere is after it has landed.
+// The methods that minimise the implicit step find the same minimum if it is unique. A cloth crumpled strongly within a
+// step has several of nearly equal g, between which methods may differ. So the states at k = 1800 N/m come from a
+// motion with shorter steps, and the first one on the sphere is after the landing.
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ namespace {
 struct Case {
   const char* name;
   SimulationSettings (*make)();
-  std::vector<int> steps;  // of the motion, after which a step is computed by every method
-  double tolerance;        // [N]; m/h² is more than 5 N/m in all of them, so this is far less than the distance
+  std::vector<int> steps;  // of the motion; every method computes a step after each
+  double tolerance;        // [N]; m/h² exceeds 5 N/m in all of them, so this is far below the distance
   double distance;         // within which all methods end [m]
 };
 

@@ -1,4 +1,4 @@
-// How fast the error falls with the step: measured between the two smallest steps, on motions that are known.
+// Order of convergence: measured between the two smallest steps, on known motions.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-/// What is left to see is the error of the time step.
+/// Solves so tightly that only the error of the time step remains.
 void solve_tightly(SimulationSettings& settings) {
   settings.integrator.stop = StoppingRule::change;
   settings.integrator.tolerance = 1e-11;
@@ -34,13 +34,13 @@ State run(SimulationSettings settings, double duration, int steps) {
   return simulation.state();
 }
 
-/// The largest distance of a vertex, and the largest difference of a velocity.
+/// Orders of the largest errors of a vertex's position and velocity.
 struct Orders {
   double positions, velocities;
 };
 double largest(const Vertices& a, const Vertices& b) { return (a - b).rowwise().norm().maxCoeff(); }
 
-/// The orders between `steps` and twice as many.
+/// Returns the orders between `steps` and twice as many.
 Orders orders(const SimulationSettings& settings, const State& exact, double duration, int steps) {
   const State coarse = run(settings, duration, steps), fine = run(settings, duration, 2 * steps);
   return {std::log2(largest(coarse.x, exact.x) / largest(fine.x, exact.x)),
@@ -55,7 +55,7 @@ void expect_second(const Orders& found, double at_least = 1.8) {
 class SecondOrder : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, SecondOrder, testing::ValuesIn(second_order_methods), method_name);
 
-// From rest at its own length, a spring stretches by mg/k·(1 − cos ωt), ω² = k/m.
+// From rest at its rest length, a spring extends by mg/k·(1 − cos ωt), ω² = k/m.
 TEST_P(SecondOrder, HoldsForASpringThatSwingsUnderItsWeight) {
   constexpr double mass = 0.1, stiffness = 50, duration = 1, g = 9.8;
   Cloth cloth;
@@ -74,7 +74,7 @@ TEST_P(SecondOrder, HoldsForASpringThatSwingsUnderItsWeight) {
   expect_second(orders(settings, exact, duration, 400));
 }
 
-/// A cloth that hangs from its upper edge, turned about it by half a radian, without strain.
+/// Makes a cloth that hangs from its upper edge, turned about it by half a radian, without strain.
 SimulationSettings pendulum(Solver solver) {
   const Mesh rest = make_grid(4, 4);
   Mesh start = rest;
@@ -94,7 +94,7 @@ TEST_P(SecondOrder, HoldsForAClothThatSwingsAsAPendulum) {
   expect_second(orders(settings, exact, duration, 400));
 }
 
-// The drag of the air grows with the square of the speed, and bends the way of a cloth that would swing back.
+// Air drag grows with the square of the speed, and bends a cloth that swings back.
 TEST_P(SecondOrder, HoldsForAir) {
   constexpr double duration = 0.8;
   SimulationSettings settings = pendulum(GetParam());
@@ -120,8 +120,8 @@ TEST_P(SecondOrder, HoldsForPinsThatMoveSmoothly) {
 class SecondOrderPush : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, SecondOrderPush, testing::ValuesIn(second_order_methods), method_name);
 
-// On a sphere so large that it is a plane and pushes with k·depth a vertex swings about the depth g/k, and the steps
-// need not know when it turns.
+// A huge sphere acts as a plane that pushes with k·depth: a vertex oscillates about the depth g/k, and steps need not
+// hit its turning points.
 TEST_P(SecondOrderPush, HoldsForAVertexThatSwingsOnIt) {
   constexpr double k = 500, g = 9.8, duration = 1, radius = 1e4;
   SimulationSettings settings = setup(loose(RowVector3d(0, 0, -1.5 * g / k)), GetParam(), 1);
@@ -133,8 +133,8 @@ TEST_P(SecondOrderPush, HoldsForAVertexThatSwingsOnIt) {
   expect_second(orders(settings, exact, duration, 400));
 }
 
-/// A scene of the homework's, up to where its springs buckle on all scales, and with how many steps its order is asked
-/// for.
+/// A scene of the homework, up to the time when its springs buckle on all scales, and the numbers of steps to measure
+/// its order.
 struct Homework {
   const char* name;
   double stiffness, damping;
@@ -156,7 +156,7 @@ SimulationSettings settings_of(const Homework& scene, Solver solver) {
   return settings;
 }
 
-/// Where the scene is at its end, with steps so small that what is left of their error does not matter.
+/// Returns the scene's final state, computed with steps so small that their error is negligible.
 const State& reference(const Homework& scene) {
   static std::map<std::string, State> states;
   const auto [place, missing] = states.try_emplace(scene.name);
@@ -177,7 +177,7 @@ TEST_P(SecondOrderHomework, HoldsForTheHomework) {
   expect_second(orders(settings_of(scene, method), reference(scene), until, steps));
 }
 
-// What second order is for: bench/time_schemes.cpp measures what these motions cost.
+// Purpose of second order: bench/time_schemes.cpp measures the costs of these motions.
 TEST(EqualErrors, AreThoseOfTheBenchmark) {
   constexpr double duration = 0.42;
   struct Motion {
@@ -205,7 +205,7 @@ TEST(EqualErrors, AreThoseOfTheBenchmark) {
                                      {Method::semi_implicit, 4200, 0, 1e-4}});
 }
 
-// Another truth about Verlet: the same steps lead back.
+// Verlet is reversible: the same steps lead back.
 TEST(Verlet, GoesBackTheWayItCame) {
   SimulationSettings settings = homework(Method::verlet, 0.001, 180);
   Simulation simulation(settings);

@@ -13,7 +13,7 @@ namespace {
 class Pins : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, Pins, testing::ValuesIn(all_methods), method_name);
 
-/// A cloth on which everything acts, moving at first, its pins like the rest.
+/// Makes a moving cloth with all effects, including moving pins.
 SimulationSettings stormy_with_pins(Solver solver, std::vector<int> pins) {
   SimulationSettings settings = setup(cloth_of(make_grid(8, 8), 1, 50, std::move(pins)), solver, 0.005);
   Cloth& cloth = settings.cloth;

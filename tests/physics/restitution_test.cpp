@@ -1,4 +1,4 @@
-// What bounces off a ground or a sphere leaves with its share of the speed, whatever the step and the method.
+// Rebounds from a ground or a sphere have the coefficient's speed, for any step and method.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-constexpr double g = 9.8;           // the default gravity [m/s²]
+constexpr double g = 9.8;           // default gravity [m/s²]
 constexpr double thickness = 0.02;  // [m]
 constexpr double fall = 0.5;        // [m]
 
@@ -33,14 +33,14 @@ class Restitution : public testing::TestWithParam<NamedMethod> {
 };
 INSTANTIATE_TEST_SUITE_P(With, Restitution, testing::ValuesIn(all_methods), method_name);
 
-/// Level, flat and strained by nothing, its vertices `fall` above a ground's layer. Soft enough for a step of 0.01 s.
+/// Makes a level, flat, unstrained sheet, `fall` above a ground's layer, soft enough for a step of 0.01 s.
 Cloth falling_sheet() {
   Cloth cloth = cloth_of(make_grid(4, 4), 0.4, 2, {});
   cloth.positions.col(2).setConstant(thickness + fall);
   return cloth;
 }
 
-/// The highest and the lowest that any vertex gets above its lowest turning point, from its first way up on [m].
+/// Greatest and least height of a vertex above its lowest turning point, from the first rise on [m].
 struct Rebound {
   double highest = -1, lowest = 1;
 };
@@ -89,8 +89,7 @@ TEST_P(Restitution, AVertexRisesFromTheTopOfASphereToItsSquareOfTheHeight) {
   }
 }
 
-// The contact takes what a step of Euler's loses elsewhere into account: nothing is lost in ten seconds, nothing
-// gained.
+// Contact compensates for the losses of Euler's steps: in ten seconds height is neither lost nor gained.
 TEST_P(Restitution, OfOneNeitherGivesNorTakesHeight) {
   constexpr double step = 0.01;
   SimulationSettings s = settings(falling_sheet(), step);
@@ -106,8 +105,8 @@ TEST_P(Restitution, OfOneNeitherGivesNorTakesHeight) {
   EXPECT_NEAR(last, fall, g * step * step / 4);
 }
 
-// A sheet that lands on a corner shakes. The velocities of Euler's steps are half a step old, so that under gravity it
-// is K + V − ½·h·Σ m g·v that stays; those of the others are those of the moment.
+// A sheet that lands on a corner vibrates. Velocities of Euler's steps are half a step old, so under gravity they
+// conserve K + V − ½·h·Σ m g·v; the other schemes have current velocities.
 TEST_P(Restitution, NeverGivesEnergyToASheetThatLandsOnACorner) {
   constexpr double step = 0.005;
   for (const double e : {0.5, 1.0}) {
@@ -153,10 +152,10 @@ TEST_P(Restitution, EndsInRest) {
   EXPECT_LT((simulation.state().x.col(2).array() - thickness).abs().maxCoeff(), 1e-6);
 }
 
-// Coulomb's cone holds for impacts: along the ground at most µ times what is taken and given back across it.
+// Coulomb's cone holds for impacts: the tangential impulse is at most µ times the normal one, including the rebound.
 TEST_P(Restitution, FrictionOfAnImpactIsCoulombs) {
   constexpr double e = 0.6, friction = 0.25, step = 0.01;
-  // Euler's first step begins a little higher.
+  // Euler's first step effectively starts a little higher.
   const double above = GetParam().second_order() ? 0 : g * step * step / 8;
   const double arrival = std::sqrt(2 * g * (fall + above));
   const double lost = friction * (1 + e) * arrival;
@@ -173,7 +172,7 @@ TEST_P(Restitution, FrictionOfAnImpactIsCoulombs) {
   }
 }
 
-// On a slope the impact turns only what is normal to it.
+// On a slope the impact changes only the normal component.
 TEST_P(Restitution, TurnsTheSpeedAcrossASlope) {
   constexpr double e = 0.5, step = 0.005;
   const Vector3d n = Vector3d(0.6, 0, 0.8);

@@ -1,4 +1,4 @@
-// A scene that says nothing about how it is computed ends where the problem's answer is.
+// A scene with default computation settings ends at the correct result.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace drape::test {
 namespace {
 
-/// A cloth under gravity that comes to rest within three seconds, without a word about how it is computed.
+/// Makes a cloth under gravity that comes to rest within three seconds, with default computation settings.
 SimulationSettings settling(Cloth cloth, double damping) {
   SimulationSettings settings;
   settings.cloth = std::move(cloth);
@@ -26,7 +26,7 @@ SimulationSettings settling(Cloth cloth, double damping) {
   return settings;
 }
 
-/// The same, computed by Newton's method with a tolerance that is some hundred times smaller.
+/// Uses Newton's method with a tolerance some hundred times smaller.
 SimulationSettings tightly(SimulationSettings settings) {
   settings.integrator.method = Method::implicit;
   settings.integrator.stop = StoppingRule::error;
@@ -35,7 +35,7 @@ SimulationSettings tightly(SimulationSettings settings) {
   return settings;
 }
 
-/// Where it is after some seconds.
+/// Returns the positions after some seconds.
 Vertices end_of(const SimulationSettings& settings, double seconds) {
   Simulation simulation(settings);
   const int steps = static_cast<int>(std::lround(seconds / settings.step));
@@ -47,7 +47,7 @@ Vertices end_of(const SimulationSettings& settings, double seconds) {
 
 // --- A catenary: 2 m between two points at one height, 1.2 m apart.
 
-/// Its sag: with x half the span and s half the length, a sinh(x/a) = s, and the sag is a (cosh(x/a) − 1).
+/// Returns its sag: with x half the span and s half the length, a sinh(x/a) = s, and the sag is a (cosh(x/a) − 1).
 double catenary_sag() {
   double low = 0.01, high = 10;
   for (int i = 0; i < 200; ++i) {
@@ -57,8 +57,8 @@ double catenary_sag() {
   return low * (std::cosh(0.6 / low) - 1);
 }
 
-/// A strip of 2 m × 0.1 m, folded to a V between its ends, 1.2 m apart, which are pinned. Each vertex has the mass of
-/// the area around it.
+/// Makes a strip of 2 m × 0.1 m, folded into a V between its pinned ends, 1.2 m apart. Masses are proportional to the
+/// vertices' areas.
 Cloth strip_between_its_ends(const Mesh& flat) {
   Mesh folded = flat;
   std::vector<int> pins;
@@ -83,7 +83,7 @@ Mesh strip_grid(int along, int across) {
   return mesh;
 }
 
-/// The same with its inner vertices moved along it and its numbers shuffled.
+/// Makes the strip with inner vertices moved along it and shuffled numbers.
 Mesh irregular_strip(int along, int across) {
   const Mesh grid = strip_grid(along, across);
   Random random(7);
@@ -96,7 +96,7 @@ Mesh irregular_strip(int along, int across) {
   Mesh mesh = grid;
   for (int v = 0; v < count; ++v) {
     Eigen::RowVector3d p = grid.positions.row(v);
-    const bool straight = std::abs(p[0]) < 1e-9 || std::abs(p[0]) > 1 - 1e-9;  // the ends, and where it is folded
+    const bool straight = std::abs(p[0]) < 1e-9 || std::abs(p[0]) > 1 - 1e-9;  // the ends, and the fold
     if (!straight) p[0] += random.between(-0.3, 0.3) * 2 / along;
     mesh.positions.row(number[static_cast<std::size_t>(v)]) = p;
   }
@@ -130,10 +130,10 @@ TEST(RightByDefault, AtRestNothingIsOutOfBalance) {
 constexpr int links = 10;
 constexpr double link_mass = 0.02, link_stiffness = 40;
 
-/// How much longer a link of a hanging chain is by the weight below it.
+/// Returns the extension of a link of a hanging chain by the weight below it.
 double longer(int link) { return (links - link) * link_mass * 9.8 / link_stiffness; }
 
-/// It hangs straight down, with its links stretched by this part of the weight below them.
+/// Makes a chain that hangs straight down, with its links extended by `part` of their equilibrium extension.
 Cloth hanging_chain(double part) {
   Cloth chain;
   chain.positions = chain.velocities = Vertices::Zero(links + 1, 3);
@@ -153,7 +153,7 @@ TEST(RightByDefault, EverySpringOfAChainIsLongerByTheWeightBelowItOverItsStiffne
   }
 }
 
-// A tenth of a millimetre is no less of a motion than a metre: it swings as it would with a tight tolerance.
+// A swing of a tenth of a millimetre is as accurate as one of a metre, compared with a tight tolerance.
 TEST(RightByDefault, ASmallSwingIsAsRightAsALargeOne) {
   for (const TimeScheme scheme : {TimeScheme::backward_euler, TimeScheme::sdirk2}) {
     for (const double step : {0.01, 0.005}) {
@@ -180,7 +180,7 @@ TEST(RightByDefault, ASmallSwingIsAsRightAsALargeOne) {
 
 // --- A cloth that falls while two corners hold it.
 
-// The solve takes a tenth of the scheme's own error, and falls with it: no shorter step makes anything worse.
+// The solve's error is a tenth of the scheme's and falls with it: a shorter step is never worse.
 TEST(RightByDefault, AShorterStepIsMoreAccurate) {
   SimulationSettings settings = settling(cloth_of(make_grid(10, 10), 1, 180, {0, 10}), 1);
   settings.effects = {Gravity{}};
@@ -229,7 +229,7 @@ TEST(RightByDefault, AClampedStripBendsAsFarAsWithATightTolerance) {
 
 constexpr double disc_radius = 0.15, plate_radius = 0.075;
 
-/// Rings of vertices around a middle: 6, 12, 18, …
+/// Makes rings of vertices around a middle: 6, 12, 18, …
 Mesh disc(int rings) {
   Mesh mesh;
   mesh.positions = Vertices::Zero(1 + 3 * rings * (rings + 1), 3);
@@ -252,7 +252,7 @@ Mesh disc(int rings) {
   return mesh;
 }
 
-/// Which part of the ring that hangs over has the plate's plane for its shadow.
+/// Returns the fraction of the overhanging ring that its shadow covers.
 double drape_coefficient(const Vertices& x, int rings) {
   const Eigen::Index first = x.rows() - Eigen::Index{6} * rings;
   double twice = 0;  // the outline's shadow, by the shoelace formula
@@ -267,7 +267,7 @@ double drape_coefficient(const Vertices& x, int rings) {
 TEST(RightByDefault, ADiscDrapesAsFarAsWithATightTolerance) {
   constexpr int rings = 6;
   const Mesh flat = disc(rings);
-  Mesh waved = flat;  // into four folds: how many there are is not unique
+  Mesh waved = flat;  // into four folds, because their number is not unique
   std::vector<int> plate;
   for (Eigen::Index v = 0; v < flat.positions.rows(); ++v) {
     const double r = flat.positions.row(v).norm(), over = std::max(0.0, r - plate_radius);

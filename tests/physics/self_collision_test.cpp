@@ -1,4 +1,4 @@
-// A cloth does not go through itself: every step is looked at by trying all pairs.
+// A cloth never passes through itself: every step is checked by testing all pairs.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class SelfCollision : public testing::TestWithParam<NamedMethod> {
 };
 INSTANTIATE_TEST_SUITE_P(With, SelfCollision, testing::ValuesIn(all_methods), method_name);
 
-/// Runs a scene; no vertex and no edge may go through a triangle at any step.
+/// Runs a scene and expects that no vertex or edge passes through a triangle in any step.
 void expect_no_crossings(const SimulationSettings& settings, double seconds) {
   Simulation simulation(settings);
   const auto& triangles = settings.cloth.triangles;
@@ -37,7 +37,7 @@ void expect_no_crossings(const SimulationSettings& settings, double seconds) {
   }
 }
 
-/// Whether a scene without self-collision ever goes through itself: there must be something to prevent.
+/// Returns true if a scene without self-collision passes through itself, so that there is something to prevent.
 bool ever_intersects(SimulationSettings settings, double seconds) {
   drape::Effects others;
   for (const Effect& effect : settings.effects) {
@@ -52,7 +52,7 @@ bool ever_intersects(SimulationSettings settings, double seconds) {
   return false;
 }
 
-/// A cloth that falls beside the middle of a small sphere, slides off, and comes to lie on the floor in folds.
+/// Makes a cloth that falls beside the middle of a small sphere, slides off, and lies on the floor in folds.
 SimulationSettings fold_scene(Solver solver, double step, int cells) {
   SimulationSettings settings = setup(cloth_of(make_grid(cells, cells), 0.5, 100, {}), solver, step);
   settings.effects = {Gravity{}, Sphere{.center = Eigen::Vector3d(0.13, -0.07, -0.5), .radius = 0.3, .scale = 1.2},
@@ -66,7 +66,7 @@ TEST_P(SelfCollision, KeepsAClothThatFoldsOnTheFloorFromGoingThroughItself) {
   expect_no_crossings(settings, 2);
 }
 
-// A curtain that is let go falls down along itself: fold on fold, in the hardest way.
+// A released curtain falls along itself, fold on fold: the hardest case.
 TEST_P(SelfCollision, KeepsAFallingCurtainFromGoingThroughItself) {
   Mesh mesh = make_grid(5, 12);
   mesh.positions.col(0) *= 0.5;
@@ -80,7 +80,7 @@ TEST_P(SelfCollision, KeepsAFallingCurtainFromGoingThroughItself) {
   expect_no_crossings(settings, 0.8);
 }
 
-/// Two sheets of one cloth, one above the other, without a common vertex.
+/// Makes two sheets of one cloth, one above the other, without a common vertex.
 Cloth two_sheets(double mass) {
   const Mesh lower = make_grid(6, 6);
   Mesh mesh = lower;
@@ -93,7 +93,7 @@ Cloth two_sheets(double mass) {
   return cloth_of(mesh, mass, 100, {});
 }
 
-// They meet at 40 m/s: in one step of 0.01 s they would be past each other.
+// They meet at 40 m/s: in one step of 0.01 s they would pass each other.
 TEST_P(SelfCollision, KeepsTheMomentumOfTwoSheetsThatCollide) {
   Cloth cloth = two_sheets(1);
   for (int i = 0; i < cloth.vertex_count(); ++i) {
@@ -122,7 +122,7 @@ TEST_P(SelfCollision, KeepsTheMomentumOfTwoSheetsThatCollide) {
   EXPECT_LT((after - before).norm(), 1e-9 * cloth.masses.sum() * 20);
 }
 
-// Layers at rest on each other come to lie the thickness apart, and stay.
+// Layers that rest on each other end at the distance of the thickness, and stay.
 TEST_P(SelfCollision, LaysLayersTheThicknessApart) {
   constexpr double thickness = 0.04;
   SimulationSettings settings = setup(two_sheets(0.5), GetParam(), step());

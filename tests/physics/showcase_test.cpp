@@ -1,4 +1,4 @@
-// What the showcase shows is physical: where a scene asks for it, the cloth does not go through itself.
+// The showcase is physical: with self-collision, its cloth never passes through itself.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What a step says about its own error, and where it stops: compared with the exact step from the same state.
+// Error estimate and stopping rule of a step, compared with the exact step from the same state.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ SimulationSettings stopping_at(SimulationSettings settings, double error) {
   return settings;
 }
 
-/// Does some steps, and hands out how far each is from the exact one [m], and what is said about it.
+/// Takes steps and passes each one's distance from the exact step [m] and its estimate to `look`.
 template <class Look>
 void compare_steps(const SimulationSettings& settings, int steps, Look look) {
   SimulationSettings exactly = stopping_at(settings, 1e-11);
@@ -36,7 +36,7 @@ void compare_steps(const SimulationSettings& settings, int steps, Look look) {
   }
 }
 
-/// How Newton's equations are solved is no matter here.
+/// Methods; the linear solver of Newton's method is irrelevant here.
 constexpr std::array methods{NamedMethod{Method::implicit, "Implicit"}, NamedMethod{Method::liu13, "Liu13"},
                              NamedMethod{Method::quasi_newton, "QuasiNewton"}};
 
@@ -52,7 +52,7 @@ TEST_P(SolveError, IsWithinTheToleranceWhereAStepStopsAtOne) {
     beyond += error > tolerance ? 1 : 0;
     far_beyond += error > 3 * tolerance ? 1 : 0;
   });
-  // It is an estimate: docs/accuracy.md has how often it is wrong. In one of these steps the cloth buckles.
+  // It is an estimate: docs/accuracy.md tells how often it is wrong. The cloth buckles in one of these steps.
   EXPECT_LE(beyond, 4);
   EXPECT_LE(far_beyond, 1);
 }
@@ -107,7 +107,7 @@ TEST(DefaultTolerance, IsASmallPartOfWhatGravityMovesAVertexInAStep) {
     settings.step = step;
     EXPECT_NEAR(default_tolerance(settings), 0.003 * step * step * 9.8, 1e-12);
   }
-  settings.step = 1;  // where that is more than anyone would accept
+  settings.step = 1;  // the tolerance is capped
   EXPECT_NEAR(default_tolerance(settings), 1e-4 * std::sqrt(8.0), 1e-12);
   settings.effects.add(Wind{.acceleration = {9.8, 0, 0}});
   settings.step = 1e-3;
@@ -118,7 +118,7 @@ TEST(DefaultTolerance, IsThatOfTheMotionAtTheStartWhereNothingPushes) {
   SimulationSettings settings;
   settings.cloth = cloth_of(make_grid(4, 4), 1, 180, {});
   settings.step = 1e-3;
-  EXPECT_NEAR(default_tolerance(settings), 1e-4 * std::sqrt(8.0), 1e-12);  // nothing moves at all
+  EXPECT_NEAR(default_tolerance(settings), 1e-4 * std::sqrt(8.0), 1e-12);  // without any motion
   settings.cloth.velocities.col(0).setConstant(2);
   EXPECT_NEAR(default_tolerance(settings), 0.003 * 1e-3 * 2, 1e-12);
 }

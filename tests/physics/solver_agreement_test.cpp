@@ -1,4 +1,4 @@
-// The implicit methods minimise the same g: driven to convergence they find the same cloth.
+// The implicit methods minimise the same g: at convergence they give the same cloth.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ Cloth disc_from_obj() {
 
 class Agreement : public ::testing::TestWithParam<Case> {};
 
-// From a cloth that moves, but is not crumpled: there g has one minimum.
+// A cloth that moves without being crumpled: g has a single minimum.
 State moving_state(const Case& c) {
   SimulationSettings s = settings(c, Method::implicit);
   Simulation simulation(s);
@@ -82,7 +82,7 @@ TEST_P(Agreement, NoIterationRaisesTheObjective) {
       simulation.restore(start);
       const StepReport report = simulation.step();
       EXPECT_LE(report.rise, 0);
-      if (report.kept < 1) continue;  // it is not at its last iterate, which had too much energy
+      if (report.kept < 1) continue;  // reduced because the last iterate had too much energy
       const double after = objective.evaluate(simulation.state().x, gradient);
       EXPECT_LE(after, before + objective.rounding(before))
           << "iteration " << iterations << " of method " << static_cast<int>(method);
@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(, Agreement,
                                            Case{"non_manifold", test::non_manifold_cloth(), false, 1e-8}),
                          [](const auto& tested) { return tested.param.name; });
 
-// The homework's cloth on a sphere that it touches: vertices lie still and do not sink in.
+// The homework's cloth in contact with a sphere: vertices lie still and do not sink in.
 TEST(SphereContact, NeitherJittersNorSinks) {
   for (const Method method : {Method::implicit, Method::quasi_newton}) {
     const Case c{"cloth", test::grid_cloth(20), false, 0};

@@ -9,7 +9,7 @@
 namespace drape {
 namespace {
 
-/// n+2 vertices in a row, the ends pinned.
+/// Makes n+2 vertices in a row, with pinned ends.
 Cloth chain(int n, double stiffness, double mass) {
   Cloth cloth;
   cloth.positions = Vertices::Zero(n + 2, 3);
@@ -31,7 +31,7 @@ TEST(SafeStep, OfAChainIsThatOfItsHighestFrequency) {
   }
 }
 
-// Each Lanczos iteration asks whether it is to stop.
+// Each Lanczos iteration queries the stop.
 TEST(SafeStep, IsFoundOnceForACloth) {
   const auto looks = [](const Cloth& cloth, double* step) {
     int count = 0;

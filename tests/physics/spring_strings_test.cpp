@@ -38,8 +38,8 @@ TEST(SpringStrings, AreTheLinesAndDiagonalsOfAGrid) {
   EXPECT_EQ(std::count_if(links.begin(), links.end(), [](const StringLink& link) { return !link.joined; }), 8 + 8 + 13);
 }
 
-// A chain whose first link is too long: each next one has to pull more with it, and one pass knows how much. A link
-// that is so short that it would have to push is left slack.
+// A chain whose first link is too long: each next link must pull more, and one pass finds all tensions. A link so short
+// that it would have to push stays slack.
 TEST(SpringStrings, BalanceAChainAtOnce) {
   constexpr int count = 20;
   const auto chain = [](double end) {
@@ -55,7 +55,7 @@ TEST(SpringStrings, BalanceAChainAtOnce) {
     string.back().excess = end;
     return string;
   };
-  // What is left of the excess is what a link holds on to.
+  // The remaining excess is bounded by a link's tolerance.
   for (const double end : {0.0, -3.0}) {
     const std::vector<Tension> before = chain(end);
     std::vector<Tension> after = before;

@@ -21,7 +21,7 @@ class StrainLimit : public testing::TestWithParam<NamedMethod> {
 };
 INSTANTIATE_TEST_SUITE_P(With, StrainLimit, testing::ValuesIn(all_methods), method_name);
 
-/// The stretches of a cloth's edges furthest from 1, those between pins aside.
+/// Extreme stretches of a cloth's edges, except edges between pins.
 struct Extremes {
   double least = std::numeric_limits<double>::infinity(), most = 0;
 };
@@ -34,7 +34,7 @@ Extremes extremes(const Cloth& cloth, const Vertices& x) {
   return e;
 }
 
-// So soft that some of its edges would become more than twice as long.
+// So soft that some of its edges would more than double their length.
 TEST_P(StrainLimit, HoldsAHangingClothAtEveryStep) {
   SimulationSettings settings = homework(GetParam(), step(), 5);
   settings.integrator.max_iterations = 2000;
@@ -55,7 +55,7 @@ TEST_P(StrainLimit, HoldsAHangingClothAtEveryStep) {
   EXPECT_GT(extremes(settings.cloth, unlimited.state().x).most, 2) << "nothing to hold";
 }
 
-// A strip hangs from one side, and its lower half is kicked down and aside at once.
+// A strip hangs from one side, and its lower half is suddenly kicked down and aside.
 TEST_P(StrainLimit, HoldsUnderASuddenLoad) {
   Mesh mesh = make_grid(4, 16);
   mesh.positions.col(0) *= 0.25;
@@ -65,14 +65,14 @@ TEST_P(StrainLimit, HoldsUnderASuddenLoad) {
   settings.effects = {Gravity{}, drape::StrainLimit{.max_stretch = 1.05, .min_stretch = 0.8}};
   Simulation simulation(settings);
   while (simulation.time() < 1) {
-    if (!simulation.step().converged) continue;  // squeezed into what no shape can satisfy: reported
+    if (!simulation.step().converged) continue;  // no shape satisfies the limits: reported
     const Extremes e = extremes(settings.cloth, simulation.state().x);
     EXPECT_LE(e.most, 1.05 * 1.001 + 1e-9) << "step " << simulation.state().step;
     EXPECT_GE(e.least, 0.8 * 0.999 - 1e-9) << "step " << simulation.state().step;
   }
 }
 
-// Between pins that are too far apart no cloth satisfies the limit: every step says so, and the motion stays finite.
+// With pins too far apart no cloth satisfies the limit: every step reports it, and the motion stays finite.
 TEST_P(StrainLimit, ReportsWhatItCannotHold) {
   SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 20, {0, 4, 20, 24}), GetParam(), step());
   settings.effects = {drape::StrainLimit{.max_stretch = 1.1, .iterations = 50}};
@@ -91,7 +91,7 @@ Eigen::RowVector3d angular_momentum(const Cloth& cloth, const State& state) {
   return sum;
 }
 
-// What the filter alone does to a free cloth that flies apart and turns. Semi-implicit Euler keeps both momenta itself.
+// The filter alone acts on a free cloth that flies apart and turns. Semi-implicit Euler itself conserves both momenta.
 TEST(StrainLimitAlone, KeepsBothMomentaOfAFreeCloth) {
   Cloth cloth = cloth_of(irregular_mesh(8), 1, 5, {});
   for (int i = 0; i < cloth.vertex_count(); ++i) {
@@ -117,13 +117,13 @@ TEST(StrainLimitAlone, KeepsBothMomentaOfAFreeCloth) {
   EXPECT_LT((angular_momentum(settings.cloth, simulation.state()) - l).norm(), 1e-11 * l.norm());
 }
 
-/// How far vertices are taken, by mass [√kg·m].
+/// Returns the mass-weighted distance that vertices are moved [√kg·m].
 double way(const Cloth& cloth, const Vertices& from, const Vertices& to) {
   return std::sqrt(cloth.masses.dot((to - from).rowwise().squaredNorm()));
 }
 
-// Where a step ends is the nearest place at which no edge is too long (but for edges that turn): from there, no way to
-// another such place leads back to where it would have ended (Kinderlehrer and Stampacchia 1980, theorem I.2.3).
+// A step ends at the nearest position without overlong edges, except for turning ones: no path from there to another
+// such position leads back towards the unconstrained one (Kinderlehrer and Stampacchia 1980, theorem I.2.3).
 TEST(StrainLimitAlone, FindsTheNearestPlaceWithinTheLimits) {
   for (int seed = 1; seed <= 6; ++seed) {
     const Cloth cloth = cloth_of(irregular_mesh(6 + 2 * seed), 1, 5, {0, 3});
@@ -131,7 +131,7 @@ TEST(StrainLimitAlone, FindsTheNearestPlaceWithinTheLimits) {
     System system(cloth, h);
     drape::StrainLimit{.max_stretch = limit, .iterations = 20000, .tolerance = 1e-5}.install(system);
     const Vertices& x = cloth.positions;
-    Vertices wanted = x + 0.05 * x;  // it grows by a twentieth, and all of it is thrown about a little
+    Vertices wanted = x + 0.05 * x;  // grows by a twentieth, with a random perturbation
     wanted += 0.004 * random_vertices(cloth.vertex_count(), seed);
     for (const int pin : cloth.pins) wanted.row(pin) = x.row(pin);
     Vertices v = (wanted - x) / h;
@@ -141,7 +141,7 @@ TEST(StrainLimitAlone, FindsTheNearestPlaceWithinTheLimits) {
     EXPECT_LE(extremes(cloth, found).most, limit * (1 + 1e-5) + 1e-9) << seed;
     const double taken = way(cloth, wanted, found);
     EXPECT_GT(taken, 1e-3) << seed;
-    // Whatever it begins with.
+    // The result is independent of the initial tensions.
     State state{.x = x, .v = v};
     state.restraint.tensions = 50 * random_vertices(std::ssize(cloth.springs), seed).col(0);
     system.begin(state);
@@ -149,22 +149,22 @@ TEST(StrainLimitAlone, FindsTheNearestPlaceWithinTheLimits) {
     system.filters.front()->apply(x, 0, h, other_v);
     EXPECT_TRUE(system.filters.front()->converged()) << seed;
     EXPECT_LT(way(cloth, found, x + h * other_v), 0.02 * taken) << seed;
-    // Between the place where it starts and any other it is within the limits.
+    // All positions between the start and another admissible one are admissible.
     for (const double part : {0.0, 0.2, 0.5, 0.9}) {
       const Vertices other = x + part * (found - x);
       const Vertices back = wanted - found, there = other - found;
       const double product = cloth.masses.dot(back.cwiseProduct(there).rowwise().sum());
       EXPECT_LE(product, 0.02 * taken * way(cloth, found, other)) << seed << ", " << part;
     }
-    // The impulses pull no more than they have to: with less of all of them an edge is too long.
+    // The impulses are minimal: with less of all of them an edge is too long.
     for (const double part : {0.9, 0.99}) {
       EXPECT_GT(extremes(cloth, wanted + part * (found - wanted)).most, limit * (1 + 1e-5)) << seed;
     }
   }
 }
 
-// A sheet of 160×160 cells that hangs from two corners is pulled down and aside: the load of all of it has to travel to
-// the pins, over some 250 edges.
+// A sheet of 160×160 cells hanging from two corners is pulled down and aside: its load must travel to the pins over
+// some 250 edges.
 TEST(StrainLimitAlone, SettlesAcrossAWideCloth) {
   const Cloth cloth = cloth_of(make_grid(160, 160), 1, 180, {0, 160});
   constexpr double limit = 1.01, h = 0.01, tolerance = 1e-3;
@@ -179,8 +179,8 @@ TEST(StrainLimitAlone, SettlesAcrossAWideCloth) {
   EXPECT_LE(extremes(cloth, cloth.positions + h * v).most, limit * (1 + tolerance) + 1e-9);
 }
 
-// One spring that is squeezed and pushed aside at once: it is held by a push along where it was, which turns nothing;
-// and where it has turned far, along where it is.
+// One spring, squeezed and pushed aside at once, is held by an impulse along its old direction, which has no torque;
+// after a large turn, along its new direction.
 TEST(StrainLimitAlone, HoldsASpringThatIsPushedAcross) {
   for (const Eigen::RowVector3d& pushed : {Eigen::RowVector3d(0.6, 0.25, 0), {0.7, 0, -0.3}, {0.3, 0.3, 0.1}}) {
     Cloth cloth;
@@ -204,8 +204,8 @@ TEST(StrainLimitAlone, HoldsASpringThatIsPushedAcross) {
   }
 }
 
-// A cloth that hangs in its limits comes to rest. Its weight pulls at edges by hundreds of times what moves them by
-// their length in a step: what pulls along where they were when the step began would shake them for ever.
+// A cloth that hangs at its limits comes to rest. Its weight pulls at edges hundreds of times harder than their motion
+// in a step: impulses along the old edge directions would shake it for ever.
 TEST(StrainLimitAlone, RestsWhereItHangs) {
   SimulationSettings settings = setup(cloth_of(make_grid(20, 20), 1, 20, {0, 20}), Method::quasi_newton, 0.01);
   settings.effects = {Gravity{}, drape::StrainLimit{.max_stretch = 1.1}, Damping{.factor = 0.05}};

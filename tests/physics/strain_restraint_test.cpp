@@ -1,4 +1,4 @@
-// What a strain limit leaves for the next step: State::restraint.
+// Data that a strain limit keeps for the next step: State::restraint.
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 namespace drape::test {
 namespace {
 
-// A cloth that hangs at its limits would end each step where its springs alone hold it: a solver that begins there has
-// little left to do, and finds what it finds from anywhere.
+// A cloth that hangs at its limits would end each step where its springs alone hold it. A solver that starts there has
+// little left to do, and finds the same result as from anywhere.
 TEST(StrainLimitRestraint, LetsTheNextStepBeginWhereTheClothWouldGo) {
   constexpr double tolerance = 1e-4;  // [m]
   for (const Method method : {Method::liu13, Method::quasi_newton}) {
@@ -47,7 +47,7 @@ TEST(StrainLimitRestraint, LetsTheNextStepBeginWhereTheClothWouldGo) {
   }
 }
 
-/// How many sweeps the limit of a simulation needs at least in the step that begins in a state, of at most so many.
+/// Returns the least number of sweeps that the limit needs in the step from a state, at most `most`.
 int sweeps(SimulationSettings settings, const State& state, int most) {
   for (int n = 1; n <= most; ++n) {
     settings.effects = {Gravity{}, drape::StrainLimit{.max_stretch = 1.02, .iterations = n}, Damping{.factor = 0.1}};
@@ -58,7 +58,7 @@ int sweeps(SimulationSettings settings, const State& state, int most) {
   return most + 1;
 }
 
-// What holds a hanging cloth in one step holds most of it in the next.
+// The tensions of one step are a good start for the next.
 TEST(StrainLimitRestraint, BeginsWithTheTensionsOfTheLastStep) {
   SimulationSettings settings = setup(cloth_of(make_grid(20, 20), 1, 20, {0, 20}), Method::liu13, 0.01);
   settings.effects = {Gravity{}, drape::StrainLimit{.max_stretch = 1.02}, Damping{.factor = 0.1}};
@@ -79,7 +79,7 @@ TEST(StrainLimitRestraint, BeginsWithTheTensionsOfTheLastStep) {
   EXPECT_LE(2 * knowing, not_knowing);
 }
 
-// Tensions that nothing asks for do not hold a cloth: one at rest stays there, whatever pulled in the step before.
+// Superfluous tensions vanish: a cloth at rest stays there for any earlier tensions.
 TEST(StrainLimitRestraint, LetsGoOfTensionsThatNothingNeeds) {
   const Cloth cloth = cloth_of(irregular_mesh(10), 1, 5, {0, 3});
   System system(cloth, 0.01);
@@ -96,7 +96,7 @@ TEST(StrainLimitRestraint, LetsGoOfTensionsThatNothingNeeds) {
   }
 }
 
-/// Where a limit lets a cloth end that falls from a state.
+/// Returns the positions after a fall from a state with a limit.
 Vertices end_of_fall(const Cloth& cloth, const State& state, const drape::StrainLimit& limit) {
   System system(cloth, 0.01);
   limit.install(system);
@@ -109,8 +109,7 @@ Vertices end_of_fall(const Cloth& cloth, const State& state, const drape::Strain
   return state.x + system.step * v;
 }
 
-// Nor do tensions that are several times too large: from them the limit comes as near to the nearest place as from
-// none.
+// Tensions several times too large vanish as well: the limit then comes as near to the nearest position as from zero.
 TEST(StrainLimitRestraint, HoldsNoMoreThanItHasTo) {
   SimulationSettings settings = setup(cloth_of(make_grid(20, 20), 1, 1, {0, 20}), Method::quasi_newton, 0.01);
   settings.effects = {Gravity{}, drape::StrainLimit{}, Damping{.factor = 0.05}};

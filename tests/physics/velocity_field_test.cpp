@@ -1,5 +1,5 @@
-// Fields that depend on the velocity: what a scheme does to a vertex by itself is known exactly, and nothing that a
-// field takes or turns may come back as energy.
+// Velocity-dependent fields: a scheme's effect on an isolated vertex is known exactly, and energy that a field takes or
+// turns never comes back.
 
 #include <gtest/gtest.h>
 
@@ -22,9 +22,9 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::RowVector3d;
 
-const double gamma = 1 - std::sqrt(0.5);  // of sdirk2
+const double gamma = 1 - std::sqrt(0.5);  // of SDIRK2
 
-/// What a step leaves of v where v' = λ v, z = hλ.
+/// Returns the factor of v in a step of v' = λ v, with z = hλ.
 Complex left_of_velocity(const NamedMethod& method, Complex z) {
   if (method.is_explicit()) return (1.0 + z / 2.0) / (1.0 - z / 2.0);
   if (method.scheme == TimeScheme::sdirk2) {
@@ -33,7 +33,7 @@ Complex left_of_velocity(const NamedMethod& method, Complex z) {
   return 1.0 / (1.0 - z);
 }
 
-/// A small piece of cloth at (x, 0, 0), all of it with the velocity of its middle.
+/// Makes a small patch of cloth at (x, 0, 0), with the velocity of its middle throughout.
 SimulationSettings patch(const NamedMethod& method, double x, const RowVector3d& velocity, const Field& field) {
   constexpr double mass = 0.05, stiffness = 2, size = 0.02, step = 0.01;
   Mesh mesh = make_grid(3, 3);
@@ -51,8 +51,8 @@ RowVector3d middle_of(const Vertices& x) { return x.colwise().mean(); }
 class VelocityField : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, VelocityField, testing::ValuesIn(all_methods), method_name);
 
-// In a frame that turns with ω a patch at rest outside goes round in a circle. Backward Euler leaves
-// 1/√(1 + h²ω²) of the radius in every step; the others, the radius. With the scene's default tolerance.
+// In a frame that rotates with ω, a patch at rest outside moves on a circle. Backward Euler leaves 1/√(1 + h²ω²) of the
+// radius in every step; the other methods conserve it. With the scene's default tolerance.
 TEST_P(VelocityField, ATurningFrameKeepsWhatRestsOutside) {
   constexpr double omega = 4, time = 5;
   SimulationSettings settings =
@@ -75,7 +75,7 @@ TEST_P(VelocityField, ATurningFrameKeepsWhatRestsOutside) {
   }
 }
 
-// Of v' = λ v, λ = −c or iω, every scheme keeps what its stability function says, from gentle to stiff.
+// For v' = λ v, λ = −c or iω, every scheme follows its stability function, from gentle to stiff.
 TEST_P(VelocityField, EveryStepKeepsOfTheVelocityWhatTheSchemeSays) {
   constexpr int steps = 4;
   const auto check = [&](const Field& field, Complex rate) {
@@ -97,8 +97,8 @@ TEST_P(VelocityField, EveryStepKeepsOfTheVelocityWhatTheSchemeSays) {
   check({.acceleration = {"-20*vx - 100*vy", "100*vx - 20*vy", "-vz*vz"}}, {-20, 100});
 }
 
-// What is drag or lies across the velocity gives a cloth nothing: kinetic and elastic energy together never rise above
-// where they began, whatever the size of a drag or a turn. With the default tolerance.
+// Drag and forces across the velocity give no energy: kinetic plus elastic energy never exceeds its initial value, for
+// any size of drag or rotation. With the default tolerance.
 TEST_P(VelocityField, WhatCannotGiveEnergyGivesNone) {
   const std::vector<std::array<std::string, 3>> fields = {
       {"-250*vx", "0", "0"},
@@ -115,7 +115,7 @@ TEST_P(VelocityField, WhatCannotGiveEnergyGivesNone) {
           setup(cloth_of(make_grid(6, 6), 0.3, stiffness, {0}), GetParam(), GetParam().is_explicit() ? 0.001 : 0.02);
       settings.integrator.stop.reset();
       settings.integrator.tolerance.reset();
-      // By default liu13 takes 100, which are too few for springs so stiff, with a field or without.
+      // The default of 100 iterations is too small for liu13 with such stiff springs, with or without a field.
       if (GetParam().method == Method::liu13) settings.integrator.max_iterations = 2000;
       settings.cloth.velocities = random_vertices(settings.cloth.vertex_count(), 5);
       settings.effects = {Field{.acceleration = field, .stiffness_bound = 1}};
@@ -126,7 +126,7 @@ TEST_P(VelocityField, WhatCannotGiveEnergyGivesNone) {
       for (int i = 0; i < 50; ++i) {
         left += simulation.step().converged ? 0 : 1;
         const Energies now = simulation.energies();
-        // An explicit step keeps another energy, see BlowUpWatch, and sdirk2 is not algebraically stable.
+        // An explicit step conserves another energy, see BlowUpWatch, and SDIRK2 is not algebraically stable.
         const double kept = GetParam().is_explicit() ? explicit_limit : GetParam().second_order() ? 1.05 : 1.01;
         const double most = kept * (start.kinetic + start.elastic);
         ASSERT_LE(now.kinetic + now.elastic, most) << field[0] << ", k = " << stiffness << ", step " << i;
@@ -136,7 +136,7 @@ TEST_P(VelocityField, WhatCannotGiveEnergyGivesNone) {
   }
 }
 
-// Every implicit method ends a step of backward Euler where M (v' − v)/h = F(x') + M a(x', v', t').
+// Every implicit method ends a step of backward Euler at M (v' − v)/h = F(x') + M a(x', v', t').
 TEST(VelocityFields, ImplicitMethodsAgreeOnAStep) {
   const Field field{.acceleration = {"-9*vx*abs(vx) + 30*vy", "-30*vx - x*vy", "-9.8 - 2*vz + sin(t)"}};
   for (const TimeScheme scheme : {TimeScheme::backward_euler, TimeScheme::sdirk2}) {
@@ -157,7 +157,7 @@ TEST(VelocityFields, ImplicitMethodsAgreeOnAStep) {
   }
 }
 
-// Beside air, gravity and damping, which are evaluated and not solved for, a field leaves the second order as it is.
+// Combined with air, gravity and damping, which are evaluated and not solved for, a field keeps second order.
 TEST(VelocityFields, KeepTheSecondOrderBesideOthers) {
   constexpr double time = 0.4;
   for (const NamedMethod& method : second_order_methods) {
@@ -207,8 +207,8 @@ TEST(FieldSlopes, AreExactOfQuadraticFields) {
   }
 }
 
-// Its gradient is the slope of its energy, its Hessian that of its gradient, both are zero outside of a step, and the
-// bound is one.
+// Its gradient is the slope of its energy, and its Hessian that of its gradient; both vanish outside of a step, and its
+// bound holds.
 TEST(FieldDrag, HasTheDerivativesThatItSays) {
   SimulationSettings settings = homework(Method::quasi_newton, 0.02, 180);
   settings.effects = {Field{.acceleration = {"-30*vx + 5*vy - x", "-2*vy", "-100*vz + 7*vx"}}};
@@ -238,8 +238,8 @@ TEST(FieldDrag, HasTheDerivativesThatItSays) {
   EXPECT_EQ(drag.add_gradient(x, 0, ignored), 0);
 }
 
-// Of a linear iteration with m different factors, the real parts of some of which are far beyond one, the acceleration
-// finds the fixed point in m + 1 steps, as GMRES does.
+// For a linear iteration with m distinct factors, some with real parts far above one, the acceleration finds the fixed
+// point in m + 1 steps, as GMRES does.
 TEST(Anderson, FindsTheFixedPointOfALinearIteration) {
   const Vertices target = random_vertices(40, 7);
   const std::array factors = {0.9, -3.0, 0.2, 5.0};

@@ -62,7 +62,7 @@ def test_the_cloth_is_coloured_by_what_it_does(small):
     moving = drape.render(simulation, color_by="speed", color_limit=2)
     covered = (still != moving).any(axis=2)
     red, green, blue = still[covered].astype(int).mean(axis=0)
-    assert blue > green and red > green  # violet, where the scale begins, however it is lit
+    assert blue > green and red > green  # violet, the scale's first colour, in any light
     film = drape.film(simulation, 0.1, color_by="stretch", color_limit=0.1)
     assert film.startswith(b"\x89PNG")
     for wrong, said in [

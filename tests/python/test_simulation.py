@@ -62,7 +62,7 @@ def test_arrays_outlive_the_simulation_and_follow_it(swinging):
     corner = positions[3:5, 2]
     del simulation, positions
     gc.collect()
-    more = [np.full((49, 3), 7.0) for _ in range(200)]  # takes the memory if it was given back
+    more = [np.full((49, 3), 7.0) for _ in range(200)]  # reuses the memory if it was freed
     assert np.array_equal(corner, after[3:5, 2]) and more
 
 

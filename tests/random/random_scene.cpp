@@ -19,7 +19,7 @@ namespace {
 class Writer {
  public:
   explicit Writer(std::uint64_t seed) : random_(seed * 7919 + 17), wild_(random_.number() < 0.25 ? 0.12 : 0.0) {
-    for (int i = 0; i < 10; ++i) random_.number();  // near seeds begin alike
+    for (int i = 0; i < 10; ++i) random_.number();  // generators of nearby seeds begin alike
     stiff_ = random_.number() < 0.2;
   }
 
@@ -38,7 +38,7 @@ class Writer {
         add(table, "[" + table.name);
     }
     for (const EffectType& type : effect_types()) {
-      // Cloth finer than its own thickness, all of it in contact, takes minutes of an implicit method.
+      // Cloth finer than its own thickness is in contact everywhere, which takes an implicit method minutes.
       if (!explicit_ && type.name == "self_collision") continue;
       const double often = !stiff_ ? 0.3 : type.name == "gravity" ? 0.8 : 0.05;
       if (random_.number() > often || (!wild() && type.name == "moving_pins" && pins_.empty())) continue;
@@ -83,8 +83,8 @@ class Writer {
 
   [[nodiscard]] bool wild() const { return wild_ > 0; }
 
-  /// Whether a scene that is meant to be right has the key: there are rules between keys.
-  /// @param motion which of a sphere's or body's motions it has, if any
+  /// Returns true if a valid scene may have the key: there are rules between keys.
+  /// @param motion kind of motion of a sphere or body, if any
   bool wanted(const std::string& table, const Key& key, std::size_t motion) {
     if (table == "effects.sphere" && (key.name == "scale" || key.name == "thickness")) {
       return motion % 3 == (key.name == "scale" ? 0 : 1);
@@ -111,7 +111,7 @@ class Writer {
     const std::string text = fmt::format("{}", value);
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
   }
-  /// A number of this size, or wild.
+  /// Returns a number of this size, or a wild one.
   double any(double size) {
     if (random_.number() >= wild_) return size * random_.between(-1, 1);
     constexpr double extremes[] = {0, -1, 1e-300, 1e300, -1e300, 1e-12, 1e12, 5e-324};
@@ -152,7 +152,7 @@ class Writer {
   std::string value(const Key& key, const double* v) { return number(within(key, *v)); }
   std::string value(const Key& key, const std::optional<double>* v) {
     if (key.name == "stiffness_bound" && !wild()) return "2.0";  // of the steepest three formulas
-    // A cloth bends with far less than a joule; a sphere's radius is a fraction of the cloth.
+    // A cloth's bending energy is far below a joule; a sphere's radius is a fraction of the cloth.
     return number(within(key, v->value_or(key.name == "rigidity" ? 1e-4 : 0.3)));
   }
   std::string value(const Key&, const std::string*) { return random_.number() < wild_ ? "\"\\u0000\"" : "\"a\""; }
@@ -163,7 +163,7 @@ class Writer {
   std::string value(const Key&, const std::optional<Rgb>*) { return "\"#123456\""; }
   std::string value(const Key&, const Choice& choice) {
     if (random_.number() < 0.3 * wild_) return "\"nothing\"";
-    // Contact that is solved goes with few other keys.
+    // Solved contact is compatible with few other keys.
     const bool contact = !choice.names.empty() && choice.names.back() == "solved";
     const int count = static_cast<int>(choice.names.size()) - (contact ? 1 : 0);
     return '"' + choice.names[static_cast<std::size_t>(random_.below(count))] + '"';
@@ -207,10 +207,10 @@ class Writer {
   std::string value(const Key& key, const std::vector<int>*) { return fmt::format("[{}]", whole(key, 10)); }
 
   Random random_;
-  double wild_;  // the part of the values that are not near their defaults
+  double wild_;  // fraction of values far from their defaults
   int columns_ = 1, rows_ = 1;
-  bool explicit_ = false;  // its method
-  bool stiff_ = false;     // few vertices, which the springs hold far more than inertia does, stretched and thrown
+  bool explicit_ = false;  // true for an explicit method
+  bool stiff_ = false;     // few vertices, stretched and thrown, whose springs dominate inertia
   std::vector<int> pins_;
   double step_ = 0.01;
   std::string text_;

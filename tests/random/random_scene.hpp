@@ -5,11 +5,11 @@
 
 namespace drape::test {
 
-/// A scene file of at most 400 vertices and 50 steps, the same for the same seed. Every table and key that the program
-/// describes takes part, whatever effects there will be: its value is near its default mostly, sometimes many orders of
-/// magnitude from it, and now and then at its limits, beyond them, or no number at all. Only counts of iterations stay
-/// below some hundreds, since a scene may well ask for more work than anyone has time for. A fifth of the scenes are
-/// small cloths of stiff springs in long steps, thrown, with little else that acts on them: k·h²/m is up to 1e14.
+/// Returns a scene file of at most 400 vertices and 50 steps, determined by the seed. It uses every described table and
+/// key, including future ones: mostly near the default, sometimes many orders of magnitude away, and occasionally at
+/// the limits, beyond them, or not a number. Only counts of iterations stay below some hundreds, to bound the run time.
+/// A fifth of the scenes are small cloths of stiff springs in long steps, thrown, with few effects: k·h²/m is up to
+/// 1e14.
 std::string random_scene(std::uint64_t seed);
 
 }  // namespace drape::test

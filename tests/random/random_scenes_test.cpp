@@ -1,6 +1,5 @@
 // Random scenes: each ends in "ok", "diverged" with its message, or "scene error" with its line, and no step of
-// backward Euler gains energy. DRAPE_RANDOM_SCENES says how many there are, DRAPE_RANDOM_SEED runs one of them alone
-// and prints it.
+// backward Euler gains energy. DRAPE_RANDOM_SCENES sets their number; DRAPE_RANDOM_SEED runs and prints a single one.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -22,9 +21,9 @@
 namespace drape::test {
 namespace {
 
-constexpr int shards = 4;  // so that several processors share the work
+constexpr int shards = 4;  // lets several processors share the work
 
-// For one scene [s]: self-collision of a cloth that blows up is the slowest, and much slower under a sanitizer.
+// Limit for one scene [s]: self-collision of a cloth that blows up is the slowest, and far slower under a sanitizer.
 #ifdef DRAPE_SANITIZED
 constexpr unsigned patience = 1800;
 #else
@@ -36,7 +35,7 @@ int environment(const char* name, int otherwise) {
   return value == nullptr ? otherwise : std::atoi(value);
 }
 
-/// Every line names a place in the file, but for one that says what is wrong with another file.
+/// Checks that every line names a place in the file, except errors of other files.
 void expect_places(const std::string& message) {
   static const std::regex place(R"(.*scene\.toml:\d+:\d+: .+)");
   std::istringstream lines(message);
@@ -47,7 +46,7 @@ void expect_places(const std::string& message) {
   }
 }
 
-/// Keeps books of a motion of backward Euler, if nothing moves the cloth but what forces and energies do.
+/// Checks the energy balance of a motion of backward Euler that only forces and energies move.
 void expect_no_energy_out_of_nothing(const Scene& scene) {
   const SimulationSettings& settings = scene.simulation;
   if (is_explicit(settings.integrator.method) || settings.integrator.scheme == TimeScheme::sdirk2) return;
@@ -55,7 +54,7 @@ void expect_no_energy_out_of_nothing(const Scene& scene) {
   if (!system.contacts.empty() || !system.filters.empty() || !system.pin_motions.empty() ||
       !system.pin_releases.empty())
     return;
-  if (condition_bound(system) > largest_condition) return;  // run all the same, and rounding
+  if (condition_bound(system) > largest_condition) return;  // runs nevertheless, but rounding dominates
   const StepLedger ledger(settings);
   Simulation simulation(settings);
   for (std::int64_t step = 0; step < scene.step_count(); ++step) {
@@ -85,7 +84,7 @@ std::string outcome(const test::SceneFolder& folder, const std::string& text) {
     } else {
       expect_no_energy_out_of_nothing(scene);
     }
-    // What a motion leaves that ends early is not taken for the whole of it.
+    // The partial results of an early end are marked as such.
     EXPECT_TRUE(
         std::filesystem::exists(result.outcome == Outcome::diverged ? part.string() : options.records.energies));
   } catch (const UsageError& error) {
@@ -114,7 +113,7 @@ TEST_P(RandomScenes, EndWell) {
     const std::string text = random_scene(static_cast<std::uint64_t>(seed));
     SCOPED_TRACE("DRAPE_RANDOM_SEED=" + std::to_string(seed));
     std::printf("seed %d: ", seed);
-    std::fflush(stdout);  // the last one is that of a crash
+    std::fflush(stdout);  // the last one printed is that of a crash
     if (only >= 0) std::printf("\n%s", text.c_str());
     alarm(patience);
     const std::string how = outcome(folder, text);

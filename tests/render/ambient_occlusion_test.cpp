@@ -27,7 +27,7 @@ Eigen::Matrix3d some_rotation(std::uint64_t seed) {
   return Eigen::Quaterniond(q.normalized()).toRotationMatrix();
 }
 
-/// A sheet folded along the y axis to the angle of a dihedral that opens upwards, each side a metre wide.
+/// Makes a sheet folded along the y axis to a dihedral angle that opens upwards, each side a metre wide.
 Mesh folded(double angle) {
   Mesh mesh = make_grid(40, 40);
   for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
@@ -49,8 +49,8 @@ TEST(AmbientOcclusion, LeavesAFlatSheetAllOfTheLight) {
   }
 }
 
-// Of a wedge that opens by 2α around the normal, Lambert's cosine lets sin α of the light in: the integral of its
-// cosine over the directions of the wedge, by that over the hemisphere. The outside of the fold sees all of its
+// A wedge that opens by 2α around the normal admits sin α of the light with Lambert's cosine: the integral of its
+// cosine over the wedge's directions, divided by that over the hemisphere. The outside of the fold sees its whole
 // hemisphere.
 TEST(AmbientOcclusion, LeavesTheInnerCornerOfAFoldTheLightOfItsWedge) {
   for (const double degrees : {40, 60, 90, 120, 150}) {
@@ -69,7 +69,7 @@ TEST(AmbientOcclusion, LeavesTheInnerCornerOfAFoldTheLightOfItsWedge) {
   }
 }
 
-// Between two wide sheets it is dark; on their outer sides it is not. Upright ones are as good as level ones.
+// It is dark between two wide sheets and bright on their outer sides, for upright sheets as for level ones.
 TEST(AmbientOcclusion, TellsTheTwoSidesOfEachLayerApart) {
   const Mesh sheet = make_grid(20, 20);
   const int n = static_cast<int>(sheet.positions.rows());

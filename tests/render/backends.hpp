@@ -11,7 +11,7 @@
 
 namespace drape::test {
 
-/// Why a backend is not there; empty if it is.
+/// Returns why a backend is unavailable; empty if it is available.
 inline std::string problem(GlBackend backend) {
   try {
     inspect_backend(backend);
@@ -24,7 +24,7 @@ inline std::string problem(GlBackend backend) {
 #define SKIP_WITHOUT(backend) \
   if (const std::string why = drape::test::problem(backend); !why.empty()) GTEST_SKIP() << why
 
-/// A test with each backend; skipped where this one is not there.
+/// A test with each backend; skipped if the backend is unavailable.
 class WithBackend : public ::testing::TestWithParam<GlBackend> {
  protected:
   void SetUp() override { SKIP_WITHOUT(GetParam()); }

@@ -11,7 +11,7 @@
 namespace drape::test {
 namespace {
 
-/// Whether a library whose file name contains `part` is loaded.
+/// Returns true if a library whose file name contains `part` is loaded.
 bool is_loaded(std::string_view part) {
   return dl_iterate_phdr(
              [](dl_phdr_info* info, std::size_t, void* wanted) {

@@ -1,4 +1,4 @@
-// Bodies in pictures: where they are, where they are smooth, and what they take of the light.
+// Bodies in pictures: position, smoothness, and shadows.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The square [-half, half]² at a height.
+/// Makes the square [-half, half]² at a height.
 MeshShape plate(double half, double height) {
   Mesh mesh = make_grid(1, 1);
   mesh.positions *= half;
@@ -20,7 +20,7 @@ MeshShape plate(double half, double height) {
   return {.triangles = std::make_shared<std::vector<Triangle>>(mesh.triangles), .positions = mesh.positions};
 }
 
-/// A band of 2·segments triangles around the z axis.
+/// Makes a band of 2·segments triangles around the z axis.
 Mesh tube(int segments) {
   Mesh mesh;
   mesh.positions.resize(Eigen::Index{2} * segments, 3);
@@ -89,10 +89,10 @@ TEST(BodyPicture, ThrowsAShadowOnTheClothAndTakesOne) {
     for (const std::uint8_t byte : image.pixels) all += byte;
     return all;
   };
-  // A plate beside the camera's view, between the cloth and the light, which comes from the upper left and the camera.
+  // A plate outside the camera's view, between the cloth and the light, which comes from the upper left and the camera.
   const MeshShape beside = plate(1, 1.5);
   MeshShape moved = beside;
-  moved.positions.rowwise() += Eigen::RowVector3d(-2.25, 2.4, 0);  // along the light's way
+  moved.positions.rowwise() += Eigen::RowVector3d(-2.25, 2.4, 0);  // along the light's direction
   Look dark = look;
   dark.shadows = false;
   const Mesh cloth = make_grid(8, 8);
@@ -107,7 +107,7 @@ TEST(BodyPicture, ThrowsAShadowOnTheClothAndTakesOne) {
 TEST(CreasedMesh, PartsVerticesAtCreasesOnly) {
   const Mesh round = tube(24), square = tube(4);
   EXPECT_EQ(CreasedMesh(round.triangles, round.positions).sources.size(), 48U);
-  // Each of the eight vertices of a square tube has two sides.
+  // Each of the eight vertices of a square tube has two normals.
   EXPECT_EQ(CreasedMesh(square.triangles, square.positions).sources.size(), 16U);
 }
 

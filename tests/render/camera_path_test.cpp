@@ -46,7 +46,7 @@ struct Film {
   }
 };
 
-/// A cloth that swings, shakes in every frame, and is thrown far away half-way through the film; and a ball that rolls.
+/// Makes a film of a cloth that swings, shakes in every frame, and is thrown far away half-way; and of a rolling ball.
 Film wild_film() {
   Film film(make_grid(4, 4));
   for (int k = 0; k < 60; ++k) {
@@ -64,7 +64,7 @@ Eigen::Vector2d project(const View& view, const Eigen::Vector3d& p) {
   return clip.head<2>() / clip[3];
 }
 
-/// How far from the middle of the picture, whose border is at 1, the frame's outermost point is.
+/// Returns the outermost point's distance from the middle of the picture, whose border is at 1.
 double reach(const View& view, const Frame& frame) {
   double most = 0;
   const auto see = [&](const Eigen::Vector3d& p) { most = std::max(most, project(view, p).cwiseAbs().maxCoeff()); };
@@ -132,7 +132,7 @@ TEST(CameraPath, ThatFollowsHasNoJerks) {
 }
 
 TEST(CameraPath, ThatFollowsIsAsNearAsTheClothIsSmall) {
-  // A cloth that is drawn to one side, into a third of its width.
+  // A cloth pulled to one side, into a third of its width.
   Film film(make_grid(4, 4));
   for (int k = 0; k < 80; ++k) {
     Vertices x = film.mesh.positions;
@@ -173,7 +173,7 @@ TEST(CameraPath, ThatGoesRoundTurnsByExactlyItsAngle) {
         EXPECT_NEAR(turned(views[k - 1], views[k]), each, 1e-9);
         EXPECT_TRUE(views[k].target.isApprox(views[0].target, 1e-12));
       }
-      // A film that repeats goes on turning: the first frame is as far from the last as that from the one before.
+      // A repeated film turns on evenly: the last frame is one turn step before the first.
       if (degrees == 360) {
         EXPECT_NEAR(turned(views.back(), views.front()), each, 1e-9);
       }
@@ -188,13 +188,13 @@ TEST(CameraPath, StaysWhereNothingMoves) {
   camera.follow = true;
   const std::vector<View> views = film.views(camera);
   for (const View& view : views) {
-    EXPECT_EQ(view.position, views[0].position);  // to the last bit: a picture must not flicker
+    EXPECT_EQ(view.position, views[0].position);  // all bits equal: a picture must not flicker
     EXPECT_EQ(view.target, views[0].target);
     EXPECT_EQ(view.up, views[0].up);
   }
 }
 
-/// A square cloth that stands upright, whose front is towards +y.
+/// Makes a film of an upright square cloth with its front towards +y.
 Film upright_film(bool with_ball) {
   Film film(make_grid(6, 6));
   for (int k = 0; k < 5; ++k) {
@@ -209,7 +209,7 @@ Film upright_film(bool with_ball) {
 }
 
 TEST(WellPlaced, LooksAtTheClothsFront) {
-  EXPECT_GT(upright_film(false).direction({}).y(), 0);  // where it is not usual
+  EXPECT_GT(upright_film(false).direction({}).y(), 0);  // opposite to the default
 }
 
 TEST(WellPlaced, LooksAtASphereAndNotAtWhatHidesIt) {
@@ -237,7 +237,7 @@ TEST(WellPlaced, LooksFromAboveGroundsAndUpwardsIsUp) {
   for (Frame& frame : film.frames) frame.colliders = {slope};
   EXPECT_GT(film.direction({}).dot(slope.normal), 0);
 
-  // The same in a world whose y axis points upwards.
+  // The same in a world with y up.
   Film lying(make_grid(6, 6));
   for (int k = 0; k < 5; ++k) lying.add(lying.mesh.positions);
   Camera camera;

@@ -9,8 +9,8 @@
 #include "tests/render/drawing.hpp"
 #include "tests/support/random.hpp"
 
-// Only the part of a picture that something covers is cleared, drawn and read. Two specks beyond opposite corners of
-// the picture, which nobody sees, stretch that part to all of it: the picture must be the same.
+// Only the covered part of a picture is cleared, drawn and read. Two invisible specks beyond opposite corners of the
+// picture extend that part to the whole picture, which must stay the same.
 
 namespace drape::test {
 namespace {
@@ -24,7 +24,7 @@ Mesh crumpled(std::uint64_t seed) {
   return mesh;
 }
 
-/// From +z, with the point on the plane z = 0 in the middle.
+/// Returns the view from +z, with a point of the plane z = 0 in the middle.
 View looking_at(double x, double y) {
   View view = from_above();
   view.position.head<2>() = view.target.head<2>() = Eigen::Vector2d(x, y);
@@ -38,7 +38,7 @@ std::vector<Collider> with_specks(std::vector<Collider> colliders, const View& v
   return colliders;
 }
 
-/// Draws a ball and a crumpled cloth, and the cloth alone, with only their part of the picture cleared and with all.
+/// Draws a ball and a crumpled cloth, and the cloth alone, clearing only their part of the picture and all of it.
 void expect_all_is_drawn(const Eigen::Vector2i& size, int samples, const Eigen::Vector2d& middle, std::uint64_t seed,
                          GlBackend backend) {
   SCOPED_TRACE(::testing::Message() << size.transpose() << " pixels, " << samples << " samples, looking at "
@@ -52,14 +52,14 @@ void expect_all_is_drawn(const Eigen::Vector2i& size, int samples, const Eigen::
   const Mesh mesh = crumpled(seed);
   for (const auto& colliders : {std::vector<Collider>{}, {SphereShape{{0.7, -0.6, 0.1}, 0.5}}}) {
     const Image in_the_box = draw(mesh, view, look, size, colliders, backend);
-    // Not EXPECT_EQ, which would print their bytes.
+    // Unlike EXPECT_EQ, this does not print all bytes.
     EXPECT_TRUE(in_the_box == draw(mesh, view, look, size, with_specks(colliders, view), backend));
   }
 }
 
 constexpr std::array<int, 3> sample_counts{1, 2, 4};
 
-/// Where the cloth is whole, cut by an edge of the picture, by a corner, and where there is nothing of it.
+/// Views with the cloth whole, cut by an edge or a corner of the picture, and outside.
 const std::array<Eigen::Vector2d, 5> middles{{{0, 0}, {1.1, 0.4}, {-0.8, 1.3}, {0.9, -2.2}, {7, 0}}};
 
 class CoveredBoxOf : public WithBackend {};

@@ -28,7 +28,7 @@ bool is_covered(const DepthMap& map, int column, int row) {
   return map.nearest()[index(map, column, row)] >= map.farthest()[index(map, column, row)];
 }
 
-/// A grid whose inner vertices are shifted at random within its plane: its triangles still tile the square.
+/// Makes a grid with inner vertices shifted randomly in its plane: its triangles still tile the square.
 Mesh shuffled(int cells, std::uint64_t seed) {
   Mesh mesh = make_grid(cells, cells);
   Random random(seed);
@@ -54,7 +54,7 @@ TEST(DepthMap, HasNoGapBetweenTrianglesAndEndsWithThem) {
 }
 
 TEST(DepthMap, KnowsTheDepthsOfTheNearestAndTheFarthestPiece) {
-  // Two planes, z = 0.3 x + 0.2 y and the same a metre below it.
+  // Two planes, z = 0.3 x + 0.2 y and one a metre below it.
   Mesh mesh = make_grid(3, 5);
   const Eigen::Index n = mesh.positions.rows();
   Vertices both(2 * n, 3);
@@ -135,7 +135,7 @@ TEST(DepthMap, IsNeverLargerThanItMayBeAndEmptyWhereTheClothHasNoPlace) {
   }
 }
 
-/// Whatever the numbers are, a map is made in time, is no larger than it may be, and is read within its bounds.
+/// For any numbers, a map is made quickly, within its size limit, and read within its bounds.
 TEST(DepthMap, TakesNumbersOfAnySize) {
   constexpr double huge = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
   const std::vector<double> sizes{0, tiny, 1e-300, 1e-162, 1e-30, 1, 1e16, 1e39, 1e154, 1e300, huge, INFINITY, NAN};

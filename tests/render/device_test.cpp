@@ -32,11 +32,11 @@ TEST_P(Device, GoesFromThreadToThreadWithItsPrograms) {
 }
 
 TEST_P(Device, IsNotForOthersAfterAnError) {
-  borrow()->gl().Enable(GL_TEXTURE_2D);  // which the core profile does not know
+  borrow()->gl().Enable(GL_TEXTURE_2D);  // invalid in the core profile
   EXPECT_EQ(borrow()->gl().GetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-/// Has Mesa draw on many threads what nobody reads, and ends the process, for which a second is enough.
+/// Makes Mesa draw on many threads without reading the result, and exits, which must take less than 20 s.
 [[noreturn]] void leave_something_unread(GlBackend backend) {
   alarm(20);
   setenv("LP_NUM_THREADS", "16", 1);
@@ -55,7 +55,7 @@ TEST_P(Device, LetsTheProcessEndWhateverNobodyHasRead) {
   }
 }
 
-/// A picture in each of some looks, with and without a ball and a ground.
+/// Draws a picture in each of several looks, with and without a ball and a ground.
 template <class Between>
 std::vector<Image> pictures(GlBackend backend, Between between) {
   Mesh mesh = make_grid(8, 8);
@@ -84,9 +84,9 @@ std::vector<Image> pictures(GlBackend backend, Between between) {
   return images;
 }
 
-// What a renderer leaves in its programs and in OpenGL's state must not be seen in what the next one draws.
+// State that a renderer leaves in its programs and in OpenGL must not affect the next one's pictures.
 TEST_P(Device, DrawsTheSameBytesWhateverItDrewBefore) {
-  std::vector<BorrowedDevice> used;  // as long as they are held, every renderer has a new one
+  std::vector<BorrowedDevice> used;  // while they are held, every renderer gets a new one
   const std::vector<Image> fresh = pictures(GetParam(), [&] { used.push_back(borrow()); });
   used.clear();
   const auto nothing_between = [] {};

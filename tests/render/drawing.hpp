@@ -23,12 +23,12 @@ inline Image draw(const Mesh& mesh, const View& view, const Look& look, Eigen::V
   return renderer.draw(frame);
 }
 
-/// From +z onto the square [-1,1]², which fills the picture's height, with +y upwards.
+/// Returns the view from +z onto the square [-1,1]², which fills the picture's height, with +y upwards.
 inline View from_above() {
   return {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 2 * std::atan(1.0 / 5.0) * 180 / 3.14159265358979323846};
 }
 
-/// A mesh that no camera of these tests sees.
+/// Makes a mesh that is outside all views of these tests.
 inline Mesh nothing() {
   Mesh mesh;
   mesh.positions = Vertices::Constant(3, 3, 1000);
@@ -36,7 +36,7 @@ inline Mesh nothing() {
   return mesh;
 }
 
-/// IEC 61966-2-1, written down a second time to check the first.
+/// Converts sRGB to linear light by IEC 61966-2-1, independently of the tested code.
 inline double to_linear(std::uint8_t byte) {
   const double value = byte / 255.0;
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);

@@ -19,7 +19,7 @@ using Eigen::Vector4d;
 
 const GroundShape level{{0, 0, 1}, -1, 0.02};
 
-/// How much light the shadow takes at a point of the ground, 0 to 1.
+/// Returns the light blocked by the shadow at a point of the ground, 0 to 1.
 double taken(const GroundShadow& shadow, const Vector3d& point) {
   const Vector4d p(point[0], point[1], point[2], 1);
   const int column = static_cast<int>(std::floor(shadow.u().dot(p) * shadow.columns()));
@@ -30,7 +30,7 @@ double taken(const GroundShadow& shadow, const Vector3d& point) {
          65535.0;
 }
 
-/// The shadow of a mesh, by a map of texels of half a centimetre.
+/// Casts the shadow of a mesh, with a map of texels of half a centimetre.
 GroundShadow cast(const Mesh& mesh, const GroundShape& ground, const Vector3d& to_light) {
   DepthMap map;
   map.look(to_light, Vector3d::UnitY());
@@ -40,7 +40,7 @@ GroundShadow cast(const Mesh& mesh, const GroundShape& ground, const Vector3d& t
   return shadow;
 }
 
-/// The area of the shadow on a ground [m²].
+/// Returns the area of the shadow on a ground [m²].
 double area(const GroundShadow& shadow, const GroundShape& ground, const Vector3d& to_light) {
   double sum = 0;
   for (const std::uint16_t pixel : shadow.pixels()) sum += pixel / 65535.0;
@@ -58,7 +58,7 @@ TEST(GroundShadow, LiesWhereTheLightIsHeldUp) {
   EXPECT_EQ(taken(shadow, {1.6, 0, -1}), 0);
   EXPECT_NEAR(area(shadow, level, above), 4, 0.05);
 
-  // Light from +x at 45° throws it a metre towards −x.
+  // Light from +x at 45° moves it by a metre towards −x.
   shadow = cast(square, level, aside);
   EXPECT_NEAR(taken(shadow, {-1, 0, -1}), 1, 1e-3);
   EXPECT_NEAR(taken(shadow, {-1.9, 0.5, -1}), 1, 0.15);
@@ -126,7 +126,7 @@ TEST(Ground, CarriesTheShadowOfWhatIsAboveIt) {
     return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0) / static_cast<double>(image.pixels.size());
   };
   EXPECT_LT(brightness(make_grid(4, 4), {level}), brightness(make_grid(4, 4), {}) - 5);
-  // A ball above the middle darkens the ground beside its own picture as well.
+  // A ball above the middle also darkens the ground beside its own picture.
   const Image with = draw(nothing(), from_the_side(), look, {240, 200}, {level, SphereShape{{0, 0, 0}, 0.5}});
   const Image without = draw(nothing(), from_the_side(), look, {240, 200}, {level});
   int darker = 0;
@@ -139,7 +139,7 @@ TEST(Ground, CarriesTheShadowOfWhatIsAboveIt) {
   EXPECT_GT(darker, 300);
 }
 
-// Only where a shadow may lie is the ground drawn with one; no edge shows where that ends.
+// The ground is drawn with shadows only where they may lie; the border of that part is invisible.
 TEST(Ground, ShadowsEndSoftly) {
   Look look;
   look.ground_grid = 0;
@@ -166,8 +166,7 @@ TEST(Ground, ShadowsEndSoftly) {
   }
 }
 
-// Specks far away, whose shadows nobody sees, stretch the part that is drawn with shadows to all of the picture. The
-// cloth is hidden in the ball.
+// Invisible specks far away extend the part drawn with shadows to the whole picture. The cloth is hidden in the ball.
 TEST(Ground, HasAllOfABallsShadow) {
   const View view = from_the_side();
   const Vector3d light = Shot(Frame{}, view, 1.2).key_direction.cast<double>().normalized();

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Array3d;
 using Eigen::Vector3d;
 
-/// A curtain of eight folds that widen downwards, 1.6 m × 1.6 m.
+/// Makes a curtain of eight folds that widen downwards, 1.6 m × 1.6 m.
 Mesh curtain() {
   Mesh mesh = make_grid(96, 48);
   for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
@@ -32,10 +32,10 @@ View before_the_curtain() { return {{0.95, -3.55, 0.5}, {0, 0, 0}, {0, 0, 1}, 30
 struct Measured {
   double deviation_by_mean = 0;  ///< of the luma 0.2126 R + 0.7152 G + 0.0722 B of the bytes
   double mean = 0;               ///< of the luma, from 0 to 1
-  double clipped = 0;            ///< part of the pixels in which a channel is 254 or more
+  double clipped = 0;            ///< fraction of pixels with a channel of 254 or more
 };
 
-/// Of the curtain's pixels: those which differ from a picture without it.
+/// Measures the curtain's pixels: those that differ from a picture without it.
 Measured measure(const Look& look) {
   const Eigen::Vector2i size{300, 300};
   const Image image = draw(curtain(), before_the_curtain(), look, size);
@@ -81,14 +81,14 @@ TEST(Light, LeavesDarkWhiteAndRedClothReadable) {
   EXPECT_EQ(measure(look).clipped, 0);
 }
 
-/// The difference of two bytes' light as CIE lightness, 0 to 100.
+/// Returns the CIE lightness of a pixel, 0 to 100.
 double lightness(const std::uint8_t* p) {
   const double y = 0.2126 * to_linear(p[0]) + 0.7152 * to_linear(p[1]) + 0.0722 * to_linear(p[2]);
   return y > 0.008856 ? 116 * std::cbrt(y) - 16 : 903.3 * y;
 }
 
 TEST(Light, LetsNoClothVanishBeforeTheDefaultBackground) {
-  // A level sheet seen from above takes the middle of the picture: its edge is seen at its left, top to bottom.
+  // A level sheet seen from above fills the middle of the picture: the test scans its left edge, top to bottom.
   Mesh sheet = make_grid(4, 4);
   sheet.positions *= 0.6;
   for (const Rgb& color : {Rgb{1, 1, 1}, Rgb{0, 0, 0}, Rgb{0, 0, 0.5}, Rgb{1, 0, 0}}) {
@@ -102,7 +102,7 @@ TEST(Light, LetsNoClothVanishBeforeTheDefaultBackground) {
 }
 
 TEST(Light, ComesFromAboveOnTheLeft) {
-  // The same sheet, leaning by 40° towards where the light may come from.
+  // The same sheet, tilted by 40° towards the light's possible directions.
   const auto leaning = [](double x, double y) {
     Mesh mesh = make_grid(4, 4);
     const Vector3d normal = Vector3d(std::sin(0.7) * x, std::sin(0.7) * y, std::cos(0.7));
@@ -127,12 +127,12 @@ TEST(Light, IsMultipliedByTheExposure) {
   EXPECT_NEAR(light(0.5) / light(1), 0.5, 0.03);
 }
 
-// A level sheet gets the cosine of the light's height, from whichever side it comes, and wherever the camera is.
+// A level sheet receives the cosine of the light's zenith angle, from any side and for any camera.
 TEST(Light, ComesFromWhereTheLookPlacesIt) {
   const auto light = [](double azimuth, double elevation) {
     Look look;
     look.color = {0.8, 0.8, 0.8};
-    look.exposure = 0.3;  // below the film's shoulder
+    look.exposure = 0.3;  // below the shoulder of the tone curve
     look.shadows = look.ambient_occlusion = false;
     look.key_azimuth = azimuth;
     look.key_elevation = elevation;
@@ -158,7 +158,7 @@ TEST(Light, CastsAShadowOnABackdrop) {
     for (int x = 0; x < 200; ++x) darker += with.at(x, y)[1] + 10 < without.at(x, y)[1] ? 1 : 0;
   }
   EXPECT_GT(darker, 200);
-  // A scene with a ground needs no other.
+  // A scene with a ground gets no backdrop floor.
   const std::vector<Collider> ground{GroundShape{{0, 0, 1}, -1, 0.01}};
   Look plain = look;
   plain.backdrop = false;
@@ -166,8 +166,8 @@ TEST(Light, CastsAShadowOnABackdrop) {
 }
 
 TEST(Light, OfABackgroundHasNoBands) {
-  // Dithered: over four by four pixels the mean is that of the gradient to a quarter of a step; whole bytes miss by
-  // half.
+  // Dithered: over 4×4 pixels the mean matches the gradient to a quarter of a step; whole bytes would miss it by half a
+  // step.
   Look look;
   look.background = Rgb{0.84, 0.84, 0.84};
   look.background_top = Rgb{0.80, 0.80, 0.80};
@@ -183,8 +183,8 @@ TEST(Light, OfABackgroundHasNoBands) {
 }
 
 TEST(Light, OnAFlatSheetIsThatOfItsFormula) {
-  // Lambert's cosine of the key light, a fill light that wraps around, sky and floor by the normal, and the film's
-  // shoulder: from the eye's direction there is neither sheen nor highlight worth a byte.
+  // Lambert's cosine of the key light, a wrapped fill light, sky and floor by the normal, and the tone curve's
+  // shoulder: from the eye's direction sheen and highlight are below one byte.
   const Array3d key(1.02, 0.99, 0.93), sky(0.34, 0.36, 0.40), floor(0.20, 0.19, 0.18), fill(0.10, 0.11, 0.13);
   const double facing_key = 0.5 / Vector3d(-0.75, 0.8, 0.5).norm(), facing_fill = 0.5 / Vector3d(0.8, 0.15, 0.5).norm();
   for (const double gray : {0.1, 0.3, 0.5}) {
@@ -201,7 +201,7 @@ TEST(Light, OnAFlatSheetIsThatOfItsFormula) {
 }
 
 TEST(Light, ShinesThroughThinCloth) {
-  // Seen against the light: turned away from it, by the angle at which the key light meets its back squarely enough.
+  // Seen against the light: tilted so that the key light falls on its back at a sufficient angle.
   Mesh sheet = make_grid(2, 2);
   const Eigen::AngleAxisd lean(1.25, Vector3d(0.8, 0.75, 0).normalized());
   sheet.positions = 0.5 * sheet.positions * lean.toRotationMatrix().transpose();
@@ -234,7 +234,7 @@ TEST(Light, SwitchedOffChangesNothingWhereThereIsNothingToHide) {
   off.translucency = 0;
   Look on;
   on.thickness = off.thickness = 0;  // light shines through the far side of a hem
-  // A sheet that bulges towards the camera and the light: nothing of it is hidden from anything.
+  // A sheet that bulges towards the camera and the light: no part is occluded.
   Mesh bulge = make_grid(16, 16);
   for (Eigen::Index i = 0; i < bulge.positions.rows(); ++i) {
     bulge.positions(i, 2) = -0.05 * bulge.positions.row(i).head<2>().squaredNorm();

@@ -17,7 +17,7 @@
 namespace drape::test {
 namespace {
 
-/// A cube of n×n cells per face, blown up to a sphere around the origin.
+/// Makes a cube of n×n cells per face, inflated to a sphere around the origin.
 Mesh closed_surface(int n) {
   Mesh mesh;
   const Mesh face = make_grid(n, n);
@@ -77,7 +77,7 @@ TEST(Renderer, DrawsASphereAsLargeAsItsTangentConeIs) {
   int half_covered = 0, row = 0;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const bool covered = image.at(x, y)[1] < 230;  // on white, green fades out where red covers
+      const bool covered = image.at(x, y)[1] < 230;  // on white, green fades where red covers
       half_covered += covered ? 1 : 0;
       row += covered && y == size.y() / 2 ? 1 : 0;
     }
@@ -93,7 +93,7 @@ TEST(Renderer, LightsBothSidesOfTheCloth) {
   View below = from_above();
   below.position.z() *= -1;
   const Image front = draw(mesh, from_above(), Look{}), back = draw(mesh, below, Look{});
-  // The lights stand with the camera, so what is seen of the back is as bright as what is seen of the front.
+  // The lights move with the camera, so the back looks as bright as the front.
   EXPECT_GT(front.at(60, 50)[0], 120);
   EXPECT_NEAR(back.at(60, 50)[0], front.at(60, 50)[0], 12);
 }
@@ -119,7 +119,7 @@ TEST(Renderer, AveragesSamplesAsLightAndEncodesOnce) {
   Look look;
   look.color = {0, 0, 0};
   look.background = Rgb{1, 1, 1};
-  look.thickness = 0;  // a hem has its own light
+  look.thickness = 0;  // a hem is lit differently
   Mesh mesh = make_grid(1, 1);
   const Eigen::Rotation2D<double> turn(0.2);
   for (int i = 0; i < 4; ++i) {
@@ -157,7 +157,7 @@ TEST(Renderer, DrawsMeshLinesOfTheirWidth) {
     look.line_width = width;
     const Image image = draw(mesh, from_above(), look, {400, 400});
     double darkness = 0, boundary = 0;
-    // Across the vertical edge at x = 0, and that at the border x = -0.5 of a smaller picture of the cloth.
+    // Across the vertical edge at x = 0, and the border edge at x = -0.5 of a smaller picture of the cloth.
     for (int x = 190; x < 210; ++x) {
       darkness += 1 - to_linear(image.at(x, 180)[0]) / to_linear(plain.at(x, 180)[0]);
     }
@@ -168,7 +168,7 @@ TEST(Renderer, DrawsMeshLinesOfTheirWidth) {
 }
 
 TEST(Renderer, HidesTheSphereUnderClothThatDipsIntoIt) {
-  // A dome 4 % inside the sphere, and the chords between its vertices deeper still.
+  // A dome 4 % inside the sphere, with the chords between its vertices even deeper.
   Mesh mesh = make_grid(20, 20);
   const double radius = 0.4;
   for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
@@ -216,11 +216,11 @@ TEST(Renderer, LooksAtNoVertexThatAFrameDoesNotHave) {
   const auto count = static_cast<int>(mesh.positions.rows());
   Renderer renderer(data_folder(), {32, 32}, from_above(), Look{}, count, mesh.triangles, mesh.uvs);
   Frame frame;
-  frame.positions = Vertices::Zero(1, 3);  // megabytes before where the last triangle's would be
+  frame.positions = Vertices::Zero(1, 3);  // megabytes before the last triangle's positions
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
 }
 
-/// Places of cloth, obstacles and camera that no picture can show do no harm.
+/// Positions of cloth, obstacles and camera beyond any picture do no harm.
 TEST(Renderer, DrawsNumbersOfAnySize) {
   const std::vector<double> sizes{0, 1e-300, 1e-162, 1e-40, 1e16, 1e39, 1e90, 1e154, 1e155, 1e308, INFINITY, NAN};
   const Mesh mesh = make_grid(3, 3), box = make_grid(2, 2);

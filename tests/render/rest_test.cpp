@@ -13,7 +13,7 @@
 namespace drape::test {
 namespace {
 
-/// Three layers that lie on a ground, as far apart as self-collision leaves them.
+/// Makes three layers on a ground, at the distance kept by self-collision.
 Mesh pile() {
   const Mesh layer = make_grid(12, 12);
   const auto n = layer.positions.rows();
@@ -39,8 +39,8 @@ int flipped_pixels(const Image& one, const Image& other) {
   return count;
 }
 
-// A cloth at rest still moves by what a solver leaves: a ten-millionth of a metre. Seen from wherever, with the angle
-// that shows it as large, no pixel flips to another layer or into a shadow.
+// A resting cloth still moves by the solver's error: a ten-millionth of a metre. From any distance, at equal apparent
+// size, no pixel flips to another layer or into a shadow.
 TEST(Rest, NoPixelOfLayersThatTouchFlickersAtAnyDistance) {
   const Mesh mesh = pile();
   const std::vector<Collider> ground{GroundShape{{0, 0, 1}, 0, 0.01}};
@@ -72,7 +72,7 @@ TEST(Rest, TheTopmostLayerIsSeenFromAnyDistance) {
   frame.positions = mesh.positions;
   frame.colliders = {GroundShape{{0, 0, 1}, 0, 0.01}};
   Look look;
-  look.shadows = false;  // or else what is in a shadow is drawn last, and what is below others cannot cover them
+  look.shadows = false;  // with shadows, shadowed parts are drawn last, so lower layers could not show through
   for (const double distance : {4.0, 40.0, 400.0, 3000.0}) {
     const View view{{0, 0, distance}, {0, 0, 0}, {0, 1, 0}, 2 * std::atan(1.2 / distance) * 180 / std::numbers::pi};
     const Image image = Renderer(data_folder(), {200, 200}, view, look, static_cast<int>(mesh.positions.rows()),

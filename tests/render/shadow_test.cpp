@@ -9,14 +9,14 @@
 #include "render/shot.hpp"
 #include "tests/render/drawing.hpp"
 
-// Shadows as they are drawn, against rays that are followed through the mesh.
+// Drawn shadows compared with rays traced through the mesh.
 
 namespace drape::test {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Shadows alone, on white cloth.
+/// Returns a look with nothing but shadows, on white cloth.
 Look only_shadows(bool shadows = true) {
   Look look;
   look.color = {1, 1, 1};
@@ -28,7 +28,7 @@ Look only_shadows(bool shadows = true) {
   return look;
 }
 
-/// A wavy sheet, and above a part of it a small one.
+/// Makes a wavy sheet, with a small one above a part of it.
 Mesh two_layers() {
   Mesh mesh = make_grid(30, 30);
   for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
@@ -50,7 +50,7 @@ struct Hit {
   Vector3d normal;
 };
 
-/// The first triangle that a ray meets beyond some distance (Möller and Trumbore 1997).
+/// Returns the first triangle that a ray hits beyond some distance (Möller and Trumbore 1997).
 std::optional<Hit> meet(const Mesh& mesh, const Vector3d& from, const Vector3d& direction, double beyond) {
   std::optional<Hit> first;
   for (const Triangle& t : mesh.triangles) {
@@ -121,8 +121,7 @@ TEST(Shadow, IsNotThereOnAFlatSheetHoweverItLies) {
 }
 
 TEST(Shadow, IsNotOfASurfaceOnItself) {
-  // For the sake of a speck above one corner all of a sheet is drawn as what may be in a shadow; far from there, none
-  // is.
+  // A speck above one corner makes the whole sheet be drawn with shadows; far from the speck there must be none.
   const Mesh flat = make_grid(1, 1);
   Frame frame;
   frame.positions = flat.positions;
@@ -179,7 +178,7 @@ TEST(Shadow, OfASphereFallsOnTheCloth) {
   Frame frame;
   frame.positions = sheet.positions;
   const Vector3d light = Shot(frame, view, 1).key_direction.cast<double>().normalized();
-  // A ball of which the shadow lies in the middle of the picture, and itself beside it.
+  // A ball beside the picture, with its shadow in the middle.
   const Vector3d center = 0.9 * light;
   const std::vector<Collider> ball{SphereShape{center, 0.15}};
   const Image with = draw(sheet, view, only_shadows(), {160, 160}, ball);
@@ -188,8 +187,8 @@ TEST(Shadow, OfASphereFallsOnTheCloth) {
   EXPECT_EQ(with.at(20, 140)[1], without.at(20, 140)[1]);
 }
 
-/// A sheet with a ridge in the direction of x, of a mesh that is turned against it: the surface, and so its picture, is
-/// the same all along the ridge.
+/// Makes a sheet with a ridge along x, on a mesh that is rotated against it: the surface, and so its picture, is
+/// constant along the ridge.
 Mesh ridge(double height) {
   Mesh mesh = make_grid(40, 40);
   const Eigen::Rotation2D<double> turn(0.35);
@@ -200,7 +199,8 @@ Mesh ridge(double height) {
   return mesh;
 }
 
-/// The largest standard deviation of a row's light: how rough a picture is that should be the same all along its rows.
+/// Returns the largest standard deviation of a row's light: the roughness of a picture that should be constant along
+/// rows.
 double roughness(const Image& image) {
   double worst = 0;
   for (int y = image.height / 6; y < 5 * image.height / 6; ++y) {
@@ -216,20 +216,20 @@ double roughness(const Image& image) {
   return worst;
 }
 
-// Its edges are as smooth as the surface on which it lies: they do not follow the mesh.
+// Shadow edges are as smooth as the surface and do not follow the mesh.
 TEST(Shadow, OfARidgeHasNoTeeth) {
   Look look = only_shadows();
   look.thickness = 0;
-  // The light, which comes over the ridge at an angle at which its far side begins to be in the shadow or is in it.
+  // The light comes over the ridge at angles at which its far side begins to be, or is, in shadow.
   look.key_azimuth = 90;
   View view = from_above();
-  view.position.z() = 500;  // far away, with the same picture: the highlight does not change along a row
+  view.position.z() = 500;  // far away, with the same picture: the highlight is constant along a row
   view.field_of_view = 2 * std::atan(1.0 / 500) * 180 / std::numbers::pi;
   for (const Eigen::Vector2i& size : {Eigen::Vector2i(240, 200), {1296, 1080}}) {
     for (const double elevation : {18.0, 25.0, 32.0, 45.0}) {
       look.key_elevation = elevation;
       for (const double height : {0.2, 0.35}) {
-        EXPECT_LT(roughness(draw(ridge(height), view, look, size)), 10)  // 23 where an edge is one texel wide
+        EXPECT_LT(roughness(draw(ridge(height), view, look, size)), 10)  // 23 for an edge of one texel
             << elevation << " degrees, " << height << " m, " << size.y() << " rows";
       }
     }

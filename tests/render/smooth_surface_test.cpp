@@ -42,7 +42,7 @@ TEST(SmoothSurface, OfAFlatGridIsTheGrid) {
   }
 }
 
-/// An upper half of the unit sphere, of a grid.
+/// Makes the upper half of the unit sphere from a grid.
 Mesh dome(int cells) {
   Mesh mesh = make_grid(cells, cells);
   for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
@@ -63,7 +63,7 @@ double largest_deviation(int cells) {
   return worst;
 }
 
-// What a sphere has to keep off the cloth's vertices for the surface to stay outside: nothing worth mentioning.
+// Extra distance that a sphere needs to keep the drawn surface outside: negligible.
 TEST(SmoothSurface, OfADomeKeepsItsRadius) {
   EXPECT_LT(largest_deviation(14), 5e-4);  // edges of a tenth: plain triangles sink in by 1.2e-3
   EXPECT_LT(largest_deviation(28), largest_deviation(14) / 8);
@@ -90,7 +90,7 @@ TEST(SmoothSurface, HasNoGaps) {
 }
 
 TEST(SmoothSurface, TakesWhatNoSurfaceIs) {
-  // Three triangles at one edge, a vertex that two fans share, a triangle of two vertices, none at all.
+  // Three triangles at one edge, two fans at one vertex, a triangle of two vertices, and no triangles.
   const Vertices points = Vertices::Random(9, 3);
   for (const std::vector<Triangle>& triangles :
        {std::vector<Triangle>{{0, 1, 2}, {0, 1, 3}, {1, 0, 4}}, {{0, 1, 2}, {0, 3, 4}}, {{0, 0, 1}, {1, 2, 3}}, {}}) {

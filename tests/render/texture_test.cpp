@@ -16,7 +16,7 @@
 namespace drape::test {
 namespace {
 
-/// A file in the temporary folder that is gone with the test.
+/// A file in the temporary folder, removed with the object.
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& bytes)
@@ -30,7 +30,7 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-/// A PPM image of one character per pixel: '#' is black, anything else white.
+/// Returns a PPM image with one character per pixel: '#' is black, anything else white.
 std::string ppm(const std::vector<std::string>& rows) {
   std::string bytes = "P6\n" + std::to_string(rows[0].size()) + " " + std::to_string(rows.size()) + "\n255\n";
   for (const std::string& row : rows) {
@@ -77,7 +77,7 @@ TEST(Texture, IsMinifiedInLinearLight) {
   const std::vector<TextureLevel> levels = load_texture_image(file.path());
   ASSERT_EQ(levels.size(), 2);
   EXPECT_EQ(levels[1].width, 1);
-  // Half of the light, of which sRGB's byte is 188; averaged bytes would be 128, a fifth of the light.
+  // Half of the light has the sRGB byte 188; averaged bytes would be 128, a fifth of the light.
   EXPECT_NEAR(levels[1].pixels[0], 32768, 1);
 }
 
@@ -143,7 +143,7 @@ TEST(Texture, NeedsTextureCoordinates) {
 TEST(Texture, PlaidTiles) {
   const TextureLevel plaid = load_texture_image(data_folder() / "textures/plaid.png").front();
   ASSERT_EQ(plaid.width, 1024);
-  const auto step = [&plaid](int a, int b) {  // the mean difference between two columns
+  const auto step = [&plaid](int a, int b) {  // mean difference between two columns
     double sum = 0;
     for (int y = 0; y < plaid.height; ++y) {
       const auto at = [&](int x) { return plaid.pixels[3 * static_cast<std::size_t>(y * plaid.width + x) + 1]; };
@@ -151,7 +151,7 @@ TEST(Texture, PlaidTiles) {
     }
     return sum / plaid.height;
   };
-  // Between the last column and the first lies the border of two threads and two bands, as between 511 and 512.
+  // Between the last column and the first lies a border of two threads and two bands, as between 511 and 512.
   EXPECT_LT(step(1023, 0), 1.5 * step(511, 512));
 }
 

@@ -13,7 +13,7 @@
 namespace drape::test {
 namespace {
 
-/// The picture's bytes, drawn by a new process with an environment variable: Mesa reads its own once.
+/// Returns a picture's bytes, drawn by a new process with an environment variable: Mesa reads it only once.
 std::vector<std::uint8_t> drawn_with(const char* variable, const char* value) {
   int ends[2];
   if (pipe(ends) != 0) return {};
@@ -53,7 +53,7 @@ std::vector<std::uint8_t> drawn_with(const char* variable, const char* value) {
   return bytes;
 }
 
-/// A process must not fork after Mesa has started its threads, as it has where other tests drew before.
+/// Returns true if other tests have started Mesa's threads: a process must not fork after that.
 bool has_threads() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator()) >
          1;
@@ -68,7 +68,7 @@ TEST(Threads, OfMesaChangeNoByte) {
   EXPECT_EQ(none, drawn_with("LP_NUM_THREADS", "5"));
 }
 
-// With vectors of 128 bits Mesa has neither AVX nor fused multiply-adds, as on a processor without them.
+// With vectors of 128 bits Mesa uses neither AVX nor fused multiply-adds, as on a processor without them.
 TEST(Threads, AndVectorsOfOtherProcessorsChangeNoByte) {
   if (has_threads()) GTEST_SKIP() << "must run in a process of its own, as under ctest";
   const std::vector<std::uint8_t> narrow = drawn_with("LP_NATIVE_VECTOR_WIDTH", "128");

@@ -25,7 +25,7 @@ struct Extent {
     lowest = lowest.cwiseMin(p);
     highest = highest.cwiseMax(p);
   }
-  /// The farthest from the middle of the picture, whose border is at 1.
+  /// Returns the largest distance from the middle of the picture, whose border is at 1.
   [[nodiscard]] double reach() const { return std::max(highest.maxCoeff(), -lowest.minCoeff()); }
 };
 
@@ -113,7 +113,7 @@ TEST(Framing, LooksFromAzimuthAndElevation) {
 }
 
 TEST(Framing, KeepsAGivenTargetInTheMiddle) {
-  // Beside the points in every direction, so that each edge of the picture is the one that counts for some of them.
+  // Targets beside the points in every direction, so that each edge of the picture is binding for some of them.
   for (const Eigen::Vector3d& target :
        {Eigen::Vector3d(2.5, -7, 2), {5, -7, 2}, {3, -9, 2}, {3, -5, 2}, {3, -7, 4}, {3, -7, 0}}) {
     Camera camera;

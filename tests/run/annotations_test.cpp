@@ -16,7 +16,7 @@ namespace {
 
 const std::string swinging = test::swinging_cloth + "[video]\nsize = [200, 160]\n";
 
-/// The last picture of a scene's film.
+/// Returns the last picture of a scene's film.
 cv::Mat last_picture(const std::string& more) {
   const test::SceneFolder folder;
   RunOptions options;
@@ -46,7 +46,7 @@ TEST(Annotations, ACaptionThatDoesNotFitIsRefusedBeforeTheRun) {
                   .starts_with("scene.toml:12:8: a caption of size = 512 does not fit into a picture of 64x64 pixels: "
                                "the largest that fits is size = "));
   EXPECT_EQ(refusal("text = \"t = {time:.2f} s\"\n"), "(no error)");
-  // It fits where the film begins, but not where it ends.
+  // It fits at the film's beginning, but not at its end.
   EXPECT_NE(refusal("text = \"{time:.0f}{time:.50f}\"\nsize = 30\n"), "(no error)");
 }
 

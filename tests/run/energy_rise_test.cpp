@@ -1,4 +1,4 @@
-// A run says how much energy its cloth got out of nothing.
+// A run reports the energy that its cloth gained without work.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int steps = 100;
 
-/// A tilted sheet that falls on a ground.
+/// Makes a tilted sheet that falls on a ground.
 SimulationSettings falling_sheet(double stiffness, const Ground& ground) {
   Mesh sheet = make_grid(12, 12);
   sheet.positions *= 0.5;
@@ -32,7 +32,7 @@ SimulationSettings falling_sheet(double stiffness, const Ground& ground) {
   return settings;
 }
 
-/// Runs it, and tells what a run says.
+/// Simulates it and returns the run's statistics.
 Statistics watch(const SimulationSettings& settings) {
   Statistics statistics;
   Simulation simulation(settings);

@@ -1,4 +1,4 @@
-// A run says by how much it is wrong where it is: 2 m of chain between two points 1.2 m apart hang 0.72556 m.
+// A run reports its error: 2 m of chain between two points 1.2 m apart sag by 0.72556 m.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double sag = 0.72556;
 
-/// A chain of 40 stiff springs that begins as a V.
+/// Makes a chain of 40 stiff springs that starts as a V.
 SimulationSettings catenary(Solver solver) {
   constexpr int springs = 40;
   SimulationSettings settings;
@@ -34,9 +34,9 @@ SimulationSettings catenary(Solver solver) {
 }
 
 struct Outcome {
-  double wrong;  ///< by which part of it the sag is wrong
+  double wrong;  ///< relative error of the sag
   Statistics statistics;
-  /// Whether the run says that its result is not to be trusted.
+  /// Returns true if the run warns about its result.
   [[nodiscard]] bool doubtful() const {
     const ErrorMonitor& exactness = statistics.exactness();
     return exactness.coarse() || (exactness.residual_force() && exactness.residual_force()->notable());
@@ -78,7 +78,7 @@ TEST(ErrorMonitor, IsInTheStatistics) {
   SimulationSettings settings = catenary(Method::liu13);
   settings.integrator.tolerance = 1e-3;
   const Outcome outcome = run(settings);
-  EXPECT_GT(outcome.wrong, 0.01);  // where a rule by change stops a chain that is this stiff
+  EXPECT_GT(outcome.wrong, 0.01);  // a rule by change stops such a stiff chain too early
   const auto accuracy = nlohmann::json::parse(outcome.statistics.to_json("completed"))["accuracy"];
   EXPECT_EQ(accuracy["stop"], "change");
   EXPECT_EQ(accuracy["tolerance"], 1e-3);

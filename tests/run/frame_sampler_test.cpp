@@ -70,7 +70,7 @@ TEST(FrameSampler, TakesAStepsOwnBitsWhereAFrameFallsOnIt) {
 
 TEST(FrameSampler, InterpolatesLinearlyBetweenSteps) {
   Simulation simulation(test::homework(Method::liu13, 0.02, 180)), again(test::homework(Method::liu13, 0.02, 180));
-  // A quarter of a step after every other one: frames at 0, 0.025, 0.05 s with h = 0.02 s.
+  // A quarter of a step after every second one: frames at 0, 0.025, 0.05 s with h = 0.02 s.
   const auto frames = sampled(simulation, FilmExtent(video(40, 1), 0.02, 5, std::nullopt));
   ASSERT_EQ(frames.size(), 5u);
   again.step();
@@ -81,7 +81,7 @@ TEST(FrameSampler, InterpolatesLinearlyBetweenSteps) {
 }
 
 TEST(FrameSampler, TakesEveryStepWithItsOwnBits) {
-  // A step that is no binary fraction: k·h must not miss a step by its rounding.
+  // The step is no binary fraction: rounding of k·h must not miss a step.
   Simulation simulation(test::homework(Method::liu13, 0.0123, 180)), again(test::homework(Method::liu13, 0.0123, 180));
   const auto frames = sampled(simulation, FilmExtent(video(25, 1), 0.0123, 20, std::nullopt, 3), FrameContents::motion);
   ASSERT_EQ(frames.size(), 7u);
@@ -96,7 +96,7 @@ TEST(FrameSampler, TakesEveryStepWithItsOwnBits) {
 }
 
 TEST(FrameSampler, InterpolatesHowTheClothMovesToo) {
-  // In free fall, velocities are linear in time, so that they are right between two steps.
+  // In free fall velocities are linear in time, so interpolation is exact.
   SimulationSettings settings = test::setup(test::cloth_of(make_grid(2, 2), 1, 50, {}), Method::liu13, 0.02);
   settings.effects = {Gravity{}};
   const double g = Gravity{}.acceleration.z();
@@ -118,7 +118,7 @@ TEST(FrameSampler, AsksForNothingThatNobodyWants) {
   }
 }
 
-// What moves as one is the same picture at every moment, also between two steps.
+// A rigidly moving scene gives the same picture at every time, also between two steps.
 TEST(FrameSampler, ShowsClothAndSphereAtOneMoment) {
   const Eigen::Vector3d velocity(3, -1, 2), center(0, 0, -5);
   SimulationSettings settings = test::setup(test::cloth_of(make_grid(2, 2), 1, 50, {}), Method::liu13, 0.02);

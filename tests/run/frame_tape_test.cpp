@@ -15,7 +15,7 @@ Frame frame_of(int index, bool moving) {
   return frame;
 }
 
-// Whatever of it lies in memory and whatever on disk, a tape gives back what it was given, as often as it is asked.
+// A tape returns its frames any number of times, wherever they are stored, in memory or on disk.
 TEST(FrameTape, GivesBackTheFramesBitByBit) {
   for (const bool moving : {false, true}) {
     const std::size_t bytes = std::size_t{moving ? 2U : 1U} * 7 * 3 * sizeof(double);

@@ -7,7 +7,7 @@
 #include "output/make_sink.hpp"
 #include "tests/support/written_motion.hpp"
 
-// An archive is read as its format is described, not as it is written: from its directory at the end.
+// Reads an archive by its format's specification: from the directory at its end.
 
 namespace drape::npz {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using test::number_at;
 using test::vertices_at;
 
-/// The entries of an archive by their names, as the directory has them.
+/// Returns the entries of an archive by name, as listed in its directory.
 std::map<std::string, std::string> entries(const std::string& zip) {
   std::map<std::string, std::string> found;
   const std::size_t end = zip.rfind("PK\x05\x06"), locator = zip.rfind("PK\x06\x07");
@@ -52,7 +52,7 @@ std::map<std::string, std::string> entries(const std::string& zip) {
 }
 
 struct Array {
-  std::string type, shape;  // as the header has them: "'<f8'", "9, 20, 3"
+  std::string type, shape;  // as in the header: "'<f8'", "9, 20, 3"
   std::string data;
 };
 

@@ -10,7 +10,7 @@
 namespace drape::obj {
 namespace {
 
-/// Nine digits of a number tell it from every other one in single precision, which is what OBJ's readers have.
+/// Nine digits distinguish all single-precision numbers, the precision of OBJ readers.
 void expect_same(const Vertices& read, const Vertices& expected) {
   ASSERT_EQ(read.rows(), expected.rows());
   for (Eigen::Index i = 0; i < expected.size(); ++i) {

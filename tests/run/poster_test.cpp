@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-/// A strip of three squares, whose ends are bent up by an angle.
+/// Returns a strip of three squares, whose ends are bent up by an angle.
 Vertices bent(double angle) {
   Vertices x(8, 3);
   for (int i = 0; i < 2; ++i) {
@@ -22,7 +22,7 @@ Vertices bent(double angle) {
   return x;
 }
 
-/// The cloth that is bent.
+/// Makes the cloth of the strip.
 Cloth strip() {
   Cloth cloth;
   for (int i = 0; i < 3; ++i) {
@@ -40,7 +40,7 @@ int chosen_of(const std::vector<double>& angles) {
   for (std::size_t k = 0; k < angles.size(); ++k) {
     Frame frame;
     frame.index = static_cast<int>(k);
-    // Wherever it is: not the place but the shape counts.
+    // Shape counts, not position.
     frame.positions = bent(angles[k]).rowwise() + static_cast<double>(k) * Eigen::RowVector3d(5, -3, 2);
     Image image(1, 1);
     image.pixels[0] = static_cast<std::uint8_t>(k);
@@ -55,7 +55,7 @@ TEST(Poster, IsOfTheFrameInWhichTheClothIsBentMost) {
   EXPECT_EQ(chosen_of({0, -0.3, -2.5, 0.7}), 2);  // up or down, and beyond a right angle
 }
 
-/// A film of four frames, of which the third is bent most.
+/// Writes a film of four frames, of which the third is bent most.
 std::string film_of(const std::string& file, bool start_at_poster, const std::vector<int>& order) {
   const Cloth cloth = strip();
   FilmInfo film;
@@ -75,7 +75,7 @@ std::string film_of(const std::string& file, bool start_at_poster, const std::ve
   return read_file(file, 1 << 20);
 }
 
-// A film that repeats is the same, from another frame on.
+// A looping film stays the same when it starts at another frame.
 TEST(Poster, CanBeWhereALoopBegins) {
   const test::ScratchFolder folder;
   for (const char* extension : {".gif", ".webp", ".apng"}) {

@@ -77,7 +77,7 @@ TEST(RunScene, WritesEveryRecordThatIsAskedFor) {
   EXPECT_EQ(stats["vertices"], 25);
   EXPECT_EQ(stats["springs"], 56);
   EXPECT_EQ(stats["steps"], 20);
-  EXPECT_GE(stats["iterations"]["mean"], 2);  // the rule is not looked at before the second
+  EXPECT_GE(stats["iterations"]["mean"], 2);  // the stopping rule starts at the second
   EXPECT_GE(stats["iterations"]["max"], stats["iterations"]["mean"]);
   EXPECT_GT(stats["step_us"]["mean"], 0);
   EXPECT_GT(stats["step_us"]["median"], 0);
@@ -237,7 +237,7 @@ TEST(RunScene, TellsOnceThatAllIsDrawnAndOnlyFilmsAreToBeCompleted) {
   EXPECT_TRUE(fs::exists(film));
 }
 
-// Pictures of some frames are those that a run makes which draws them all.
+// A run that draws only some frames gives the same pictures as one that draws all.
 TEST(RunScene, WhatIsNotShownNeedNotBeDrawn) {
   const test::SceneFolder folder;
   const Scene scene = folder.load(std::string(swinging) +
@@ -254,7 +254,7 @@ TEST(RunScene, WhatIsNotShownNeedNotBeDrawn) {
   run(scene, some);
   EXPECT_EQ(test::content(path("some.png")), test::content(path("every10.png")));
 
-  // Of a film that ends early, the last picture is of where it has come to.
+  // The last picture of a film that ends early shows its last state.
   std::stop_source stop;
   StopAfterAStep observer(stop);
   some.observer = &observer;
@@ -298,7 +298,7 @@ TEST(RunScene, CountsTheStepsThatDidNotConvergeAndTheirWorstResidual) {
   RunOptions options;
   options.steps = 5;
   const RunResult result = run(scene, options);
-  // liu13 takes a hundred iterations at most, and a hundred thousand would not be enough here.
+  // liu13 takes at most a hundred iterations, and a hundred thousand would not suffice here.
   EXPECT_GE(result.statistics.not_converged(), 4);
   EXPECT_GT(result.statistics.worst_residual(), scene.simulation.integrator.tolerance);
   const std::string json = result.statistics.to_json("completed");

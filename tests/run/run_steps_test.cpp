@@ -9,12 +9,12 @@
 namespace drape {
 namespace {
 
-/// Observers are told of whole steps alone, also where a stop comes as one of them looks at the error of a step that is
-/// over: who goes on has seen every step once.
+/// Observers see whole steps only, even if a stop arrives while one of them evaluates a finished step's error. A
+/// resumed run therefore sees every step once.
 TEST(RunSteps, InterruptedAnywhereGoOnAsIfNothingWas) {
   SimulationSettings settings = test::setup(test::cloth_of(make_grid(4, 4), 1, 50, {0, 4}), Method::implicit, 0.01);
   settings.effects.add(Gravity{});
-  constexpr int steps = 129;  // the error of the 128th is looked at
+  constexpr int steps = 129;  // the error of the 128th is evaluated
   struct Run {
     long asked = 0;
     Statistics statistics;

@@ -1,4 +1,4 @@
-// Several runs in one process at the same time, as drape sweep --jobs makes them.
+// Several simultaneous runs in one process, as in drape sweep --jobs.
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 namespace drape {
 namespace {
 
-/// What runs share is what loads itself when it is first used: codecs, fonts, OpenGL, kernels. Each run is another
-/// scene, with a caption, a camera and colours that are looked for, a film, a still and a motion.
+/// Runs share libraries that load at first use: codecs, fonts, OpenGL, kernels. Each run is another scene with a
+/// caption, an automatic camera and colour scale, a film, a still and a motion.
 std::string scene_of(std::size_t i) {
   const std::vector<std::string> methods{"liu13", "implicit", "verlet"};
   return "[cloth]\nmesh = { grid = [4, 4] }\nstiffness = 20\npins = [\"corner:x-y-\"]\n[time]\nstep = 0.005\n"

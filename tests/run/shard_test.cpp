@@ -21,7 +21,7 @@ TEST(Shard, IsReadAndRefused) {
   }
 }
 
-/// The largest load of n shards, whose runs are checked to be all runs, each once.
+/// Returns the largest load of n shards, and checks that they contain each run once.
 double largest_load(const std::vector<double>& costs, std::size_t shards) {
   std::vector<int> seen(costs.size(), 0);
   double largest = 0;
@@ -46,7 +46,7 @@ TEST(Shards, HaveEveryRunOnceAndAreBalanced) {
     const double sum = std::accumulate(costs.begin(), costs.end(), 0.0);
     const double most = *std::max_element(costs.begin(), costs.end());
     for (const std::size_t shards : {1U, 2U, 5U, 64U}) {
-      // Graham 1969: sharing out the longest first takes at most 4/3 of the least that is possible.
+      // Graham 1969: assigning the longest first takes at most 4/3 of the optimum.
       const double least = std::max(most, sum / static_cast<double>(shards));
       if (shards == 1 || runs > shards) {
         EXPECT_LE(largest_load(costs, shards), 4.0 / 3 * least + most / 3 + 1e-9);

@@ -1,4 +1,4 @@
-// A long run says early that it is one, why, and what would be faster.
+// A long run reports early that it will be slow, why, and faster alternatives.
 
 #include "run/slow_run_warning.hpp"
 

@@ -13,10 +13,10 @@
 namespace drape::usd {
 namespace {
 
-/// Points in single precision, which is what a USD file has.
+/// Rounds points to single precision, as in a USD file.
 Vertices single(const Vertices& x) { return x.cast<float>().cast<double>(); }
 
-/// The time samples of an attribute: the numbers behind each time code. The reader of scene/ keeps the first of points.
+/// Returns an attribute's time samples: the numbers of each time code. The reader of scene/ keeps the first of points.
 std::map<int, std::vector<float>> samples(const std::string& usda, const std::string& attribute) {
   std::map<int, std::vector<float>> found;
   std::istringstream text(usda.substr(usda.find(attribute + ".timeSamples = {")));
@@ -43,7 +43,7 @@ TEST(Usd, ReadsBackAsTheFramesOfTheFilm) {
   EXPECT_TRUE(stage.layer().z_up);
   EXPECT_EQ(stage.layer().metres_per_unit, 1);
   EXPECT_EQ(stage.layer().start_time_code, 2);
-  EXPECT_EQ(stage.layer().time_codes_per_second, 40);  // of the scene's time, at half of which the film plays 20
+  EXPECT_EQ(stage.layer().time_codes_per_second, 40);  // in the scene's time; the film plays 20 at half speed
   ASSERT_EQ(stage.prims().size(), 1U);
   const UsdPrim& cloth = stage.prims()[0].children.at(0);
   EXPECT_EQ(cloth.type, "Mesh");

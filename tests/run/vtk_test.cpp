@@ -35,7 +35,7 @@ class PolyData {
     EXPECT_STREQ(root_->Attribute("header_type"), "UInt64");
   }
 
-  /// @param where "Piece/Points"
+  /// @param where path of the element: "Piece/Points"
   [[nodiscard]] std::string array(const std::string& where, const std::string& name) const {
     const tinyxml2::XMLElement* element = root_->FirstChildElement("PolyData");
     std::istringstream names(where);
@@ -137,8 +137,8 @@ TEST(Vtk, HasTheSurfacesOfColliders) {
               1e-14);
     EXPECT_EQ(points.bottomRows(4).col(2), Eigen::Vector4d::Constant(-1.25));
 
-    // Their triangles are seen from outside: the volume that they enclose, of which a flat ground has none of its own
-    // below the origin's plane of z = −1.25.
+    // Their triangles face outwards, checked by the enclosed volume. The flat ground at z = −1.25 has none and is left
+    // out.
     const std::string corners = surface.array("Piece/Polys", "connectivity");
     double volume = 0;
     for (int t = 0; t < surface.count("NumberOfPolys") - 2; ++t) {

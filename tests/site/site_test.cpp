@@ -10,7 +10,7 @@
 #include "tests/html/html_page.hpp"
 #include "tests/support/files.hpp"
 
-// The site that script/docs builds: every link leads somewhere, and every page fits its window without the network.
+// The site built by script/docs: all links have targets, and all pages fit their window without the network.
 
 namespace drape {
 namespace {
@@ -36,8 +36,7 @@ struct BuiltSite : test::ScratchFolder {
   std::vector<fs::path> pages;
 };
 
-/// Looks at the site, which is built once for all tests of a process; skipped where mkdocs or its theme is not
-/// installed.
+/// Tests of the site, built once for all tests of a process; skipped without mkdocs or its theme.
 class Site : public test::InBrowser {
  protected:
   void SetUp() override {
@@ -69,7 +68,7 @@ std::string unescaped(std::string text) {
   return text;
 }
 
-/// What an attribute of a page holds, wherever it stands.
+/// Returns the values of attributes anywhere in a page.
 std::set<std::string> attributes(const std::string& page, const std::string& names) {
   std::set<std::string> values;
   const std::regex pattern("\\s(?:" + names + ")=(?:\"([^\"]*)\"|([^\\s\">]+))");
@@ -111,7 +110,7 @@ TEST_F(Site, ShowsEverySceneWithItsFile) {
   EXPECT_GE(scenes, 18);
 }
 
-// The least contrast of a link with the page, see WCAG 2.1, 1.4.3.
+// Least contrast of a link with the page, see WCAG 2.1, 1.4.3.
 constexpr const char* contrast_of_links = R"(
   const light = (color) => {
     const [r, g, b] = color.match(/[0-9.]+/g).slice(0, 3).map((v) => v / 255)
@@ -130,7 +129,7 @@ TEST_F(Site, FitsItsWindowWithoutTheNetwork) {
     for (const bool dark : {false, true}) {
       browser_->set_theme(dark);
       browser_->set_width(1200);
-      // Of another theme that a page has kept there, from one which keeps none: a page of the site may still do so.
+      // Clears the theme stored by another page, from one that stores none: the site's own pages may store it again.
       browser_->open(path("blank.html"));
       browser_->run("localStorage.clear()");
       browser_->open(site_->path(std::string("site/") + name + ".html"));

@@ -1,5 +1,4 @@
-// No energy out of nothing: what the implicit methods promise of a cloth that hangs, at the default tolerance and at
-// the loosest.
+// Energy guarantee of the implicit methods for a hanging cloth, at the default tolerance and at the loosest.
 
 #include <gtest/gtest.h>
 
@@ -15,11 +14,11 @@
 namespace drape::test {
 namespace {
 
-/// What a cloth did that fell from rest and then hung.
+/// Energies of a cloth that fell from rest and then hung.
 struct Fall {
-  double above_start = 0;   // the most that K + E + gravity's energy was above what it was at first [J]
-  double above_lowest = 0;  // and above what it had already been [J]
-  double work = 0;          // the most that gravity gave [J]
+  double above_start = 0;   // largest excess of K + E + gravity's energy over its initial value [J]
+  double above_lowest = 0;  // largest excess over its lowest earlier value [J]
+  double work = 0;          // largest work of gravity [J]
 };
 
 Fall fall(const SimulationSettings& settings, int steps) {
@@ -39,7 +38,7 @@ Fall fall(const SimulationSettings& settings, int steps) {
   return result;
 }
 
-/// 1 kg that hangs from two corners.
+/// Makes a cloth of 1 kg that hangs from two corners.
 SimulationSettings hanging(Solver solver, int cells, double stiffness, double step) {
   SimulationSettings settings = setup(cloth_of(make_grid(cells, cells), 1, stiffness, {0, cells}), solver, step);
   settings.effects.add(Gravity{});
@@ -58,7 +57,7 @@ TEST_P(HangingCloths, NeverHaveMoreEnergyThanTheyHadAndGravityGave) {
         const std::string which = std::to_string(cells) + " cells, " + std::to_string(stiffness) + " N/m, " +
                                   std::to_string(step) + " s; gravity gave " + std::to_string(fallen.work) + " J";
         EXPECT_LE(fallen.above_start, 1e-3 * fallen.work) << which;
-        // A step that meets its tolerance may gain a little, but not again and again.
+        // A step that meets its tolerance may gain a little, but not repeatedly.
         EXPECT_LE(fallen.above_lowest, 0.05 * fallen.work) << which;
       }
     }
@@ -71,15 +70,15 @@ TEST_P(HangingCloths, GainNothingInTheLongRun) {
   EXPECT_LE(fallen.above_lowest, 0.05 * fallen.work);
 }
 
-/// Where a step would have ended that went another share of the way back from where it stopped.
+/// Returns the end of a step that is `factor` times as long as the given one.
 State further(const State& before, const State& after, double factor) {
   State state = after;
   state.x = before.x + factor * (after.x - before.x);
   return state;
 }
 
-// A step that is cut back goes as far as it may: not an eighth of its way further without a gain. As the cloth had at
-// its start all the energy that it may have, it is never stopped dead.
+// A step that is cut back keeps the largest share without a gain: an eighth more would gain energy. The cloth starts
+// with all of its allowed energy, so it is never stopped completely.
 TEST_P(HangingCloths, KeepTheLargestShareOfAStepThatGainsNothing) {
   int cut = 0;
   for (const double stiffness : {1e6, 1e8}) {
@@ -106,7 +105,7 @@ TEST_P(HangingCloths, KeepTheLargestShareOfAStepThatGainsNothing) {
   }
 }
 
-// However early the homework's cloth is told to stop, what a step gains is bounded by the forces in it.
+// At any tolerance of the homework's cloth, the forces in it bound the gain of a step.
 TEST_P(HangingCloths, AtAnyToleranceGainNoMoreThanIsTolerated) {
   for (const double tolerance : {1.0, 1e-2}) {
     SimulationSettings settings = homework(GetParam(), 0.02, 180);

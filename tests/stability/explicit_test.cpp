@@ -1,4 +1,4 @@
-// The explicit methods: stable up to the step that is computed, refused beyond, and found out where they blow up.
+// The explicit methods: stable up to the computed step, refused beyond it, and blow-ups are detected.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(With, HardScenes,
                          ::testing::Combine(::testing::ValuesIn(hard_cases()), ::testing::ValuesIn(explicit_methods)),
                          case_and_method);
 
-/// The case with a step that an explicit method stands; nothing where its effects cannot be evaluated explicitly.
+/// Returns the case with a stable step of an explicit method; nothing if its effects cannot be evaluated explicitly.
 std::optional<HardRun> safe_run(const HardCase& hard, Solver method) {
   const auto refused = [&](const std::vector<std::string>& more) {
     return test::usage_error([&] { static_cast<void>(load(hard, method, more)); });
@@ -53,13 +53,13 @@ std::optional<HardRun> safe_run(const HardCase& hard, Solver method) {
   return run;
 }
 
-// With r = hω/2 symplectic Euler keeps K + E − (h/2) v·∇E of a linear cloth, so that K + E varies by (1 + r)/(1 − r),
-// and velocity Verlet (1 − r²) K + E, so that it varies less. A cloth is not linear: where springs pass through zero
-// length their force jumps, and every passage gains a little.
+// With r = hω/2 symplectic Euler conserves K + E − (h/2) v·∇E of a linear cloth, so that K + E varies by (1 + r)/(1 −
+// r); velocity Verlet conserves (1 − r²) K + E and varies less. A cloth is nonlinear: forces jump where springs pass
+// through zero length, and every passage gains a little.
 TEST_P(HardScenes, StayWithinTheirEnergyAtASafeStep) {
   const auto& [hard, method] = GetParam();
   const std::optional<HardRun> given = safe_run(hard, method);
-  const double when = method.method == Method::verlet ? 0.5 : 0;  // it evaluates the forces
+  const double when = method.method == Method::verlet ? 0.5 : 0;  // time at which it evaluates the forces
   if (!given) return;
   const StepLedger ledger(given->settings);
   const FloatingPointTraps traps;
@@ -77,7 +77,7 @@ TEST_P(HardScenes, StayWithinTheirEnergyAtASafeStep) {
   }
 }
 
-/// The longest step, in safe ones, with which a cloth does not blow up in some thousand steps.
+/// Returns the longest step, in safe ones, with which a cloth does not blow up in some thousand steps.
 double measured_border(const SimulationSettings& settings) {
   const double safe = safe_step(make_system(settings));
   const auto blows_up = [&](double factor) {
@@ -95,7 +95,7 @@ double measured_border(const SimulationSettings& settings) {
   return stability_border(blows_up);
 }
 
-/// A cloth with a little of every motion.
+/// Makes a cloth with a little of every motion.
 SimulationSettings disturbed(const Mesh& mesh, const Mesh& rest, double stiffness, Solver method = semi_implicit) {
   SimulationSettings settings = setup(make_cloth(mesh, rest, 1, stiffness, {0}), method, 1);
   settings.cloth.velocities = 1e-3 * random_vertices(settings.cloth.vertex_count(), 3);
@@ -113,7 +113,7 @@ TEST(SafeStep, IsNearTheTrueBorder) {
   }
 }
 
-// Where springs are stretched far, they resist in all directions alike, as the bound supposes.
+// Springs stretched far resist in all directions alike, as the bound assumes.
 TEST(SafeStep, IsTheTrueBorderWhereSpringsAreStretched) {
   const Mesh mesh = make_grid(8, 8);
   Mesh rest = mesh;
@@ -131,12 +131,12 @@ TEST(SafeStep, IsTheTrueBorderWhereSpringsAreStretched) {
 TEST(SafeStep, CountsWhatIsPushedBesideTheSprings) {
   SimulationSettings settings = setup(test::grid_cloth(8), semi_implicit, 0.0055);
   EXPECT_FALSE(stability_problem(settings, make_system(settings)));
-  // Each of them alone would be stable, (h√k)² = 3.9 and (hω)² = 3.8, but not the two together.
+  // Each alone would be stable, (h√k)² = 3.9 and (hω)² = 3.8, but not both together.
   settings.effects = {Sphere{.center = Eigen::Vector3d(0, 0, -0.3), .radius = 0.4, .stiffness = 1.3e5}};
   EXPECT_TRUE(stability_problem(settings, make_system(settings)));
 }
 
-/// A cloth that hangs under gravity, with a step beyond the safe one.
+/// Makes a hanging cloth under gravity, with a step beyond the safe one.
 SimulationSettings unstable(double factor, Solver method = semi_implicit) {
   SimulationSettings settings = setup(test::grid_cloth(8), method, 1);
   settings.effects = {Gravity{}};
@@ -167,7 +167,7 @@ TEST_P(BlowUpOf, IsFoundAtTheStepInWhichTheEnergyIsNoLongerExplained) {
       EXPECT_EQ(ended, now.kinetic + now.elastic > BlowUpWatch::limit_of_unstable_steps * explained) << "step " << step;
     }
     EXPECT_TRUE(ended) << factor;
-    // Long before the numbers end, while the cloth can still be drawn.
+    // Long before numbers overflow, while the cloth can still be drawn.
     EXPECT_LT(simulation.state().x.cwiseAbs().maxCoeff(), 1e4) << factor;
   }
 }
@@ -200,9 +200,9 @@ TEST(BlowUp, IsReportedWithAllThatExplainsIt) {
   EXPECT_NEAR(std::stod(parts[6]), safe, 1e-3 * safe);
 }
 
-// Springs that hang crumpled pass through zero length all the time: over many steps the homework's second scene gains
-// energy out of nothing at 0.95 of its safe step, and does not at half of it. It is looked for every 256 steps there,
-// so what no fall explains is found in one of the next two looks.
+// Springs of a crumpled hanging cloth pass through zero length all the time. Over many steps the homework's second
+// scene gains energy at 0.95 of its safe step, but not at half of it. The check runs every 256 steps there, so energy
+// that no fall explains is detected in one of the next two checks.
 TEST(BlowUp, IsFoundWhereACrumpledClothHeatsUpBelowTheSafeStep) {
   SimulationSettings settings = setup(test::grid_cloth(20, 18), semi_implicit, 1);
   settings.effects = {Gravity{}};
@@ -211,8 +211,8 @@ TEST(BlowUp, IsFoundWhereACrumpledClothHeatsUpBelowTheSafeStep) {
   Simulation hot(settings);
   std::string message;
   const double start = hot.energies().gravity;
-  double given = 0;              // the most that gravity has given [J]
-  std::int64_t unexplained = 0;  // when there was first more energy than that explains
+  double given = 0;              // largest work of gravity [J]
+  std::int64_t unexplained = 0;  // first step with more energy than that explains
   try {
     for (int step = 0; step < 10'000; ++step) {
       hot.step();
@@ -229,7 +229,7 @@ TEST(BlowUp, IsFoundWhereACrumpledClothHeatsUpBelowTheSafeStep) {
   EXPECT_NE(message.find("though the step is below " + fmt::format("{:.4g} s", safe)), std::string::npos) << message;
   EXPECT_NE(message.find("zero length"), std::string::npos) << message;
   const Energies end = hot.energies();
-  // Gravity gave it at most its weight times how far it can fall.
+  // Gravity did at most the work of the greatest possible fall.
   EXPECT_GT(end.kinetic + end.elastic, 10 * 9.8 * 3) << message;
 
   settings.step = 0.5 * safe;
@@ -239,7 +239,7 @@ TEST(BlowUp, IsFoundWhereACrumpledClothHeatsUpBelowTheSafeStep) {
   });
 }
 
-// A step beyond the safe one that is stable all the same is not called a blow-up.
+// A step beyond the safe one that happens to be stable is not reported as a blow-up.
 TEST(BlowUp, IsNotSeenWhereThereIsNone) {
   Simulation simulation(unstable(1.05));
   EXPECT_NO_THROW({

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Vertices anywhere in a cube of 2 m, at up to 1000 m/s along each axis.
+/// Makes vertices anywhere in a cube of 2 m, at up to 1000 m/s along each axis.
 SimulationSettings random_state(double stiffness, double step) {
   SimulationSettings settings = setup(cloth_of(make_grid(8, 8), 1, stiffness, {}), Method::liu13, step);
   settings.cloth.positions = random_vertices(81, 1);
@@ -21,7 +21,7 @@ SimulationSettings random_state(double stiffness, double step) {
   return settings;
 }
 
-/// Sheets that share an edge, with vertices of very different masses.
+/// Makes sheets that share an edge, with vertices of very different masses.
 SimulationSettings uneven_masses() {
   SimulationSettings settings = setup(cloth_of(three_sheets(4), 1, 180, {0}), Method::liu13, 0.01);
   for (int i = 0; i < settings.cloth.vertex_count(); ++i) settings.cloth.masses[i] *= std::pow(10.0, i % 7 - 3);

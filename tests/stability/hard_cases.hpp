@@ -12,31 +12,31 @@
 
 namespace drape::test {
 
-/// One of the worst days of a solver.
+/// A case that is hard for a solver.
 struct HardCase {
   std::string name;
-  std::string file;                          ///< the scene; empty for a case that a scene cannot say
-  std::function<SimulationSettings()> make;  ///< such a case
-  std::int64_t steps = 100;                  ///< of such a case
+  std::string file;                          ///< scene file; empty for a case that no scene can express
+  std::function<SimulationSettings()> make;  ///< makes a case without a scene file
+  std::int64_t steps = 100;                  ///< of a case without a scene file
 };
 
 inline void PrintTo(const HardCase& hard, std::ostream* out) { *out << hard.name; }
 
-/// scenes/hard/*.toml, in the order of their names, and the cases that no scene can say.
+/// Returns scenes/hard/*.toml in the order of their names, and the cases that no scene can express.
 const std::vector<HardCase>& hard_cases();
 
-/// What to simulate, and for how many steps.
+/// Settings and number of steps of a run.
 struct HardRun {
   SimulationSettings settings;
   std::int64_t steps = 0;
 };
 
-/// The case with a method.
+/// Returns the run of a case with a method.
 /// @param more overrides, as on the command line; only step and allow_unstable for a case without a scene
 /// @throws UsageError if it is refused
 HardRun load(const HardCase& hard, Solver solver, const std::vector<std::string>& more = {});
 
-/// Ends the name of a parametrised test with the case's and the method's.
+/// Names a parametrised test after its case and method.
 std::string case_and_method(const testing::TestParamInfo<std::tuple<HardCase, NamedMethod>>& info);
 
 }  // namespace drape::test

@@ -1,4 +1,4 @@
-// The homework's scenes for 10 000 steps with every method: they stay finite, near their pins, and within their energy.
+// The homework's scenes for 10 000 steps with every method: finite, near their pins, and within their energy.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ TEST_P(LongHomework, StaysWithinItsEnergy) {
   }
   const FloatingPointTraps traps;
   Simulation simulation(settings);
-  // Falling by twice the cloth's length gives each kilogram at most 2·9.8·3 J, and the sphere pushes back what it took.
+  // A fall by twice the cloth's length gives each kilogram at most 2·9.8·3 J, and the sphere returns only its share.
   const double most = 2 * 9.8 * 3 * settings.cloth.masses.sum();
   int not_converged = 0;
   for (int step = 0; step < 10'000; ++step) {

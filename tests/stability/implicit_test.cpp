@@ -1,4 +1,4 @@
-// The implicit methods on the worst days: what every step of theirs must obey, converged or not.
+// The implicit methods in hard cases: laws of every step, converged or not.
 
 #include <gtest/gtest.h>
 
@@ -15,13 +15,13 @@
 namespace drape::test {
 namespace {
 
-/// What a run did.
+/// Extreme values of a run.
 struct Record {
-  Real growth = 0;            // the most that Σ (ΔK + ΔE − W) was at any time [J]
+  Real growth = 0;            // largest Σ (ΔK + ΔE − W) at any time [J]
   Real largest_gain = 0;      // of a single step [J]
   Real highest = 0;           // K + E [J]
-  Real momentum_scale = 0;    // the most that Σ m ‖v‖ was [kg m/s]
-  double worst_residual = 0;  // of the steps that did not converge [N]
+  Real momentum_scale = 0;    // largest Σ m ‖v‖ [kg m/s]
+  double worst_residual = 0;  // of unconverged steps [N]
   int not_converged = 0;
 };
 
@@ -30,20 +30,20 @@ class HardCases : public testing::TestWithParam<std::tuple<HardCase, NamedMethod
   static void check_step(const StepBalance& b, const Simulation& simulation, const Energies& before,
                          const StepReport& report) {
     ASSERT_TRUE(simulation.state().x.allFinite() && simulation.state().v.allFinite());
-    // No iteration raised g, and the step ended no higher than where it began.
+    // No iteration raised g, and the step ended no higher than it began.
     EXPECT_LE(report.rise, 0);
     EXPECT_LE(b.end_value, b.start_value + b.energy_rounding);
-    // ∇g and the energies are what the formulas say.
+    // ∇g and the energies follow the formulas.
     EXPECT_NEAR(simulation.residual(), static_cast<double>(b.gradient_norm), static_cast<double>(b.gradient_rounding));
     const Energies after = simulation.energies();
     EXPECT_NEAR(after.elastic, static_cast<double>(b.elastic_after), static_cast<double>(b.energy_rounding));
-    // The balance: ΔK and ΔE as the simulation reports them, the other side as it follows from the states.
+    // The balance: ΔK and ΔE as the simulation reports them, the other side computed from the states.
     const Real others = (b.energy_after - b.elastic_after) - (b.energy_before - b.elastic_before);
     const Real change = Real(after.kinetic) - before.kinetic + after.elastic - before.elastic + others;
     const Real balance = b.work - b.inertial_loss - b.convexity_loss + b.imbalance;
     EXPECT_LE(std::abs(change - balance), b.gain_rounding())
         << static_cast<double>(change) << " J, and by the balance " << static_cast<double>(balance);
-    // No energy out of nothing.
+    // No energy gain.
     EXPECT_LE(b.gain(), (report.converged ? b.tolerated : 0) + b.gain_rounding());
   }
 
@@ -81,11 +81,11 @@ TEST_P(HardCases, ObeyTheLawsOfAStep) {
     EXPECT_NE(refused.find("double precision leaves only rounding noise"), std::string::npos) << refused;
     return;
   }
-  const HardRun given = load(hard, method);  // and for that reason only
+  const HardRun given = load(hard, method);  // refused for that reason only
   const StepLedger ledger(given.settings);
   const FloatingPointTraps traps;
   Simulation simulation(given.settings);
-  if (!make_system(given.settings).contacts.empty()) {  // whose forces the ledger does not know
+  if (!make_system(given.settings).contacts.empty()) {  // the ledger does not know contact forces
     for (std::int64_t step = 0; step < given.steps; ++step) {
       simulation.step();
       ASSERT_TRUE(simulation.state().x.allFinite() && simulation.state().v.allFinite()) << "step " << step;
@@ -120,7 +120,7 @@ TEST_P(HardCasesByDefault, GainNoEnergyOutOfNothing) {
   HardRun hard = load(GetParam(), Method::quasi_newton, {"integrator.allow_unstable=true"});
   hard.settings.integrator = {.method = Method::quasi_newton};
   if (condition_bound(make_system(hard.settings)) > largest_condition) return;
-  if (!make_system(hard.settings).contacts.empty()) return;  // whose forces the ledger does not know
+  if (!make_system(hard.settings).contacts.empty()) return;  // the ledger does not know contact forces
   const StepLedger ledger(hard.settings);
   const FloatingPointTraps traps;
   Simulation simulation(hard.settings);
@@ -131,7 +131,7 @@ TEST_P(HardCasesByDefault, GainNoEnergyOutOfNothing) {
     ASSERT_TRUE(simulation.state().x.allFinite() && simulation.state().v.allFinite());
     EXPECT_LE(report.rise, 0);
     EXPECT_LE(b.gain(), (report.converged ? b.tolerated : 0) + b.gain_rounding()) << "step " << step;
-    // Converged is what the forces out of balance say, or what rounding leaves of them.
+    // Convergence is confirmed by the residual_force forces, up to rounding.
     if (report.converged && condition_bound(make_system(hard.settings)) < 1e6) {
       EXPECT_LE(simulation.error(), 1.001 * ledger.tolerance(before, simulation.state())) << "step " << step;
     }

@@ -1,4 +1,4 @@
-// What is no finite number never gets into a simulation, wherever it is written.
+// Non-finite numbers never enter a simulation, wherever they are written.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace drape::test {
 namespace {
 
-/// How a key's value looks with such a number in it; empty if it holds none.
+/// Returns a key's value with such a number in it; empty if it has no numbers.
 std::string with_number(const Key& key, const std::string& number) {
   std::string vector = "[0, " + number + ", 0]";
   if (std::holds_alternative<double*>(key.target) || std::holds_alternative<std::optional<double>*>(key.target)) {
@@ -68,13 +68,13 @@ TEST(Input, ThatIsNotFiniteIsAnErrorInAMesh) {
   }
 }
 
-/// The largest safe step of a hanging cloth [s].
+/// Returns the largest safe step of a hanging cloth [s].
 double safe_step_of(double mass, double stiffness) {
   const Cloth cloth = cloth_of(make_grid(10, 10), mass, stiffness, {0});
   return safe_step(System(cloth, 0.01));
 }
 
-// It is proportional to √(m/k), also where k/m is beyond the range of a double.
+// It is proportional to √(m/k), even if k/m exceeds the range of a double.
 TEST(Input, OfAnySizeHasASafeStep) {
   const double usual = safe_step_of(1, 1);
   ASSERT_GT(usual, 0);
@@ -86,7 +86,7 @@ TEST(Input, OfAnySizeHasASafeStep) {
   EXPECT_NEAR(safe_step_of(1e-300, 1e300) * 1e300, usual, 1e-3 * usual);
 }
 
-// Each of these took longer than anybody waits.
+// Regression: each of these once took extremely long.
 TEST(Input, ThatCannotBeComputedWithIsRefused) {
   const test::SceneFolder folder;
   folder.write("far.obj", "v 0 0 0\nv 1e308 0 0\nv 0 1e308 0\nf 1 2 3\n");

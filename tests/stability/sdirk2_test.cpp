@@ -1,5 +1,5 @@
-// SDIRK2 on the worst days. It is L-stable, but nothing bounds the energy of a step: what is measured, and what is
-// found out where it is too much.
+// SDIRK2 in hard cases. It is L-stable, but nothing bounds the energy of a step: measured limits, and detection of
+// excess.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TEST_P(HardStages, EndInFiniteNumbersOrAreFoundOut) {
   const auto& [hard, method] = GetParam();
   const HardRun forced = load(hard, method, {"integrator.allow_unstable=true"});
   if (condition_bound(make_system(forced.settings)) > largest_condition)
-    return;  // refused, as every implicit method is
+    return;  // refused, as by every implicit method
   const HardRun given = load(hard, method);
   const StepLedger ledger(given.settings);
   const FloatingPointTraps traps;
@@ -55,7 +55,7 @@ TEST_P(HardStages, EndInFiniteNumbersOrAreFoundOut) {
   }
 }
 
-/// The most that K + E of a hanging cloth was, as a part of what gravity gave it.
+/// Returns the greatest K + E of a hanging cloth, relative to the work of gravity.
 double highest(const SimulationSettings& settings, int steps) {
   Simulation simulation(settings);
   const Energies start = simulation.energies();
@@ -84,7 +84,7 @@ TEST_P(HangingStages, SolvedTightlyHaveNoMoreEnergyThanGravityGave) {
   }
 }
 
-// Told to stop when an iteration changes 1 mm, springs of 10⁸ N/m are left with 50 J each.
+// A rule that stops at a change of 1 mm leaves springs of 10⁸ N/m with 50 J each.
 TEST_P(HangingStages, SolvedMuchTooLooselyAreFoundOut) {
   SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 1e8, {0, 4}), GetParam(), 5e-3);
   settings.effects = {Gravity{}};
@@ -99,7 +99,8 @@ TEST_P(HangingStages, SolvedMuchTooLooselyAreFoundOut) {
     EXPECT_EQ(error.kind(), ErrorKind::diverged);
     message = error.what();
   }
-  if (GetParam().method == Method::implicit && message.empty()) return;  // its last iteration does far more than 1 mm
+  if (GetParam().method == Method::implicit && message.empty())
+    return;  // its last iteration changes far more than 1 mm
   EXPECT_NE(message.find("use a smaller tolerance"), std::string::npos) << message;
   const Energies now = simulation.energies();
   EXPECT_GT(now.kinetic + now.elastic, Sdirk2Guard::limit * (start.gravity - now.gravity));

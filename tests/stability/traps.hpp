@@ -4,8 +4,8 @@
 
 namespace drape::test {
 
-/// While it lives, an invalid operation, a division by zero or an overflow of floating-point numbers ends the program
-/// with SIGFPE, where it happens.
+/// Makes invalid floating-point operations, divisions by zero and overflows raise SIGFPE during its lifetime, at the
+/// place where they happen.
 class FloatingPointTraps {
  public:
   FloatingPointTraps() {

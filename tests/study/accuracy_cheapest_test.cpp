@@ -18,13 +18,12 @@ TEST(Cheapest, IsTheLeastCostlyBelowTheLimitAndTheNextIsOfAnotherMethod) {
   EXPECT_EQ(find_cheapest(offers, 1e-6).first, &offers[4]);
   EXPECT_EQ(find_cheapest(offers, 1e-6).next, nullptr);
   EXPECT_EQ(find_cheapest(offers, 1e-9).first, nullptr);
-  // A tighter tolerance that gives the same iterations is not cheaper, whatever the clock says.
+  // A tighter tolerance with the same iterations is not cheaper, whatever the measured times.
   const std::vector<Offer> same{{"a", "1", 1e-4, {5, 5, 5}}, {"a", "2", 1e-4, {4, 4, 4}}};
   EXPECT_EQ(find_cheapest(same, 1e-3).first, &same[0]);
 }
 
-// Of the invented runs, see there: with an accuracy of 1e-4 m Newton's method is at 50 µm for 90 ms; Verlet has 0.4 mm
-// for 5 ms.
+// For the invented runs: with an accuracy of 1e-4 m Newton's method reaches 50 µm in 90 ms; Verlet 0.4 mm in 5 ms.
 TEST(Cheapest, IsTheAnswerOfTheStudy) {
   const StudyReport report = accuracy_report(test::invented_study());
   ASSERT_TRUE(report.answer);

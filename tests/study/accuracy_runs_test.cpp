@@ -15,7 +15,7 @@ using test::SceneFolder;
 
 class Runs : public testing::Test {
  protected:
-  /// What is said about a file with this text.
+  /// Returns the error of a file with this text.
   std::string problem(const std::string& text) {
     folder_.write(runs_name, text);
     return test::usage_error([&] { read_runs(folder_.path()); });
@@ -37,7 +37,7 @@ TEST_F(Runs, HoldAllThatTheReportIsMadeOf) {
   EXPECT_NE(to_page(after).find("an abacus, 10 rows"), std::string::npos);
 }
 
-// Somebody may have sorted the table.
+// A user may have sorted the table.
 TEST_F(Runs, MayHaveTheRowsOfAThingInAnyOrder) {
   const std::string two =
       "a,asked,implicit,backward-euler,0.001,1,estimate,0.001\n"
@@ -59,7 +59,7 @@ TEST_F(Runs, ThatAreCutAreSeenToBe) {
   std::string without = whole_;
   without.erase(half, whole_.find('\n', half) + 1 - half);
   EXPECT_NE(problem(without).find("rows before this, as it says"), std::string::npos);
-  // At every place: said in one line, and never taken for whole.
+  // Truncated anywhere: reported in one line, and never accepted as complete.
   for (std::size_t size = 0; size < whole_.size(); size += 997) {
     const std::string said = problem(whole_.substr(0, size));
     EXPECT_FALSE(said.empty()) << size;
@@ -86,8 +86,7 @@ TEST_F(Runs, OfAnotherKindAreRefusedWithTheirLine) {
   EXPECT_NE(test::usage_error([&] { read_runs(folder_.path() / "none"); }).find("runs.csv"), std::string::npos);
 }
 
-// Of the invented steps, see there: four end before the cloth buckles at 0.1 s, and one of these is four times its
-// estimate.
+// Four of the invented steps end before the cloth buckles at 0.1 s, and one of these errs by four times its estimate.
 TEST(EstimateCheck, CountsStepsBeforeAndAfterTheClothBuckles) {
   const SceneAccuracy scene = test::invented_scene("a");
   const EstimateCheck check = check_estimates(scene, scene.asked.front());

@@ -7,7 +7,7 @@
 namespace drape {
 namespace {
 
-/// Steps of a method of first order whose cost is that of their number.
+/// Makes steps of a first-order method whose cost is proportional to their number.
 SceneAccuracy proportional_steps() {
   SceneAccuracy scene = test::invented_scene("a");
   scene.fixed.clear();
@@ -35,8 +35,8 @@ TEST(BestFixedStep, IsTheCheapestWhereShorterOnesCostLess) {
   EXPECT_NEAR(fixed_step_cost(scene, Method::implicit, 0.02).value(), 50, 1e-9);
 }
 
-// Of the invented runs, see there: Newton's method ends at 50 µm for 90 ms and at 0.5 mm for 40 ms, which a fixed step
-// of 0.01 s takes 20 ms for.
+// For the invented runs: Newton's method reaches 50 µm in 90 ms and 0.5 mm in 40 ms, for which a fixed step of 0.01 s
+// takes 20 ms.
 TEST(AskedSummary, SaysWhatToTakeAndWhatItCostsBesideFixedSteps) {
   const auto summary = asked_summary({test::invented_scene("a")});
   ASSERT_TRUE(summary);
@@ -51,7 +51,7 @@ TEST(AskedSummary, SaysWhatToTakeAndWhatItCostsBesideFixedSteps) {
   EXPECT_FALSE(asked_summary({none}));
 }
 
-// Its only tolerance ends 0.1 mm away, for 2 ms per second in steps of 0.02 s.
+// Its only tolerance has an error of 0.1 mm, in 2 ms per second with steps of 0.02 s.
 TEST(SolveSummary, SaysWhatAStepCostsByItsError) {
   const auto summary = solve_summary({test::invented_scene("a")});
   ASSERT_TRUE(summary);

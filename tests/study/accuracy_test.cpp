@@ -48,7 +48,7 @@ TEST(ReferenceMotion, IsTheSameByNewtonAndQuasiNewton) {
   EXPECT_EQ(reference->states[1].step, 7);
   EXPECT_EQ(reference->apart.size(), 20U);
   EXPECT_LT(reference->apart_after(20), 1e-10);
-  EXPECT_GT(reference->apart_after(20), 0);  // they are two
+  EXPECT_GT(reference->apart_after(20), 0);  // they are two different runs
   EXPECT_FALSE(reference->first_beyond(1e-6));
   EXPECT_EQ(reference->first_beyond(-1), 1);
 }
@@ -102,7 +102,7 @@ class StudyOfASmallCloth : public ::testing::Test {
   }
 };
 
-// Implicit and symplectic Euler are both of first order (Hairer, Lubich and Wanner, "Geometric Numerical Integration",
+// Implicit and symplectic Euler are of first order (Hairer, Lubich and Wanner, "Geometric Numerical Integration",
 // section I.1), velocity Verlet and SDIRK2 of second.
 TEST_F(StudyOfASmallCloth, EveryMethodHasItsOrderInTheTimeStep) {
   AccuracyOptions options;
@@ -144,7 +144,7 @@ TEST_F(StudyOfASmallCloth, TheErrorOfTheMotionFallsWithTheToleranceAndNothingIsC
   EXPECT_NE(to_text(report).find("quasi-newton"), std::string::npos);
 }
 
-// What is asked of a step is not what a motion gets, but a tenth of it is at most half as wrong.
+// The motion's error differs from the requested error per step, but a tenth of the latter at least halves it.
 TEST_F(StudyOfASmallCloth, TheErrorOfTheMotionFallsWithTheAccuracyThatIsAskedFor) {
   AccuracyOptions options;
   options.methods = {Method::quasi_newton, {Method::quasi_newton, TimeScheme::sdirk2}};
@@ -164,7 +164,7 @@ TEST_F(StudyOfASmallCloth, TheErrorOfTheMotionFallsWithTheAccuracyThatIsAskedFor
     EXPECT_LT(result.step_gained[time], 0.1 * result.fixed[3].errors[time].max);
   }
   for (const MotionPoint& p : result.asked) {
-    EXPECT_EQ(p.substeps.size(), 10U);  // of the steps up to the first time
+    EXPECT_EQ(p.substeps.size(), 10U);  // steps up to the first time
     EXPECT_EQ(p.local_errors.size(), 10U);
     EXPECT_FALSE(p.flip);
     for (std::size_t i = 0; i < p.local_errors.size(); ++i) {
@@ -176,7 +176,7 @@ TEST_F(StudyOfASmallCloth, TheErrorOfTheMotionFallsWithTheAccuracyThatIsAskedFor
   EXPECT_FALSE(result.contact_from);
 }
 
-// Backward Euler's steps fall g·h² instead of ½·g·h² from rest, which small steps of second order do exactly.
+// From rest a backward Euler step falls g·h² instead of ½·g·h², which small second-order steps do exactly.
 TEST(LocalErrors, OfABackwardEulerStepInFreeFallIsHalfOfGTimesHSquared) {
   const SceneFolder folder;
   Scene scene = folder.load(small_scene, {"cloth.pins=[]"});

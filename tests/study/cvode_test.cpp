@@ -1,5 +1,5 @@
-// drape's references in time against an integrator that shares nothing with them: CVODE of SUNDIALS (Hindmarsh et al.
-// 2005), Adams' formulas of variable order, to 1e-12.
+// drape's references in time compared with an independent integrator: CVODE of SUNDIALS (Hindmarsh et al. 2005), Adams
+// formulas of variable order, to 1e-12.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ constexpr double agreement = 1e-8;  // [m]
 
 #ifdef DRAPE_HAS_CVODE
 
-/// Springs and gravity, written down once more.
+/// Computes springs and gravity, written independently.
 void accelerate(const Cloth& cloth, const double* x, double* a) {
   const auto n = cloth.positions.rows();
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -54,7 +54,7 @@ int derivative(realtype, N_Vector y, N_Vector slope, void* data) {
   return 0;
 }
 
-/// Where a cloth is after some seconds.
+/// Returns the positions of a cloth after some seconds.
 Vertices integrate(Cloth cloth, double seconds) {
   const auto n = cloth.positions.rows();
   SUNContext context = nullptr;
@@ -90,7 +90,7 @@ Vertices integrate(Cloth cloth, double seconds) {
   return x;
 }
 
-/// How far drape's reference is from CVODE's after so many steps of the settings.
+/// Returns the distance of drape's reference from CVODE's after `steps` steps of the settings.
 double apart(const SimulationSettings& settings, std::int64_t steps) {
   Progress progress;
   const auto reference = extrapolate_steps(settings, {steps}, 64, 1e-9, {}, progress);

@@ -33,7 +33,7 @@ NamedChart sample() {
 
 std::string sample_svg() { return html::svg_file(html::still_chart(sample().chart)); }
 
-/// The texts of an element and of what is in it, in order.
+/// Returns the texts of an element and its descendants, in order.
 std::vector<std::string> texts(const tinyxml2::XMLElement& element) {
   std::vector<std::string> all;
   if (std::string(element.Name()) == "text") all.emplace_back(element.GetText());
@@ -126,7 +126,7 @@ TEST(SvgPrinter, ThatIsMissingSaysWhatToInstall) {
   }
 }
 
-/// Tests that draw; skipped where the libraries are not.
+/// Tests that draw; skipped without the libraries.
 class Printed : public test::InScratchFolder {
  protected:
   void SetUp() override {
@@ -136,7 +136,7 @@ class Printed : public test::InScratchFolder {
       GTEST_SKIP() << error.what();
     }
   }
-  /// Whether there is a font, without which text is not drawn.
+  /// Returns true if there is a font, without which text is not drawn.
   [[nodiscard]] bool has_font() const { return printer_->pdf(sample_svg()).find("/FontFile") != std::string::npos; }
 
   std::unique_ptr<SvgPrinter> printer_;
@@ -153,7 +153,7 @@ TEST_F(Printed, PngHasTwiceTheSizeAndItsText) {
     return std::count_if(image.begin<cv::Vec3b>(), image.end<cv::Vec3b>(),
                          [](const cv::Vec3b& pixel) { return pixel[0] < 128 || pixel[1] < 128 || pixel[2] < 128; });
   };
-  // Without text: the same with every text element called by a name that is not drawn.
+  // Removes the text by renaming every text element to one that is not drawn.
   std::string mute = svg;
   for (std::size_t at = 0; (at = mute.find("text", at)) != std::string::npos; at += 4) {
     if (mute[at - 1] == '<' || mute[at - 1] == '/') mute.replace(at, 4, "desc");
@@ -170,7 +170,7 @@ TEST_F(Printed, PdfIsAVersionThatEveryLatexTakesAndHasItsFonts) {
   EXPECT_NE(pdf.find("%%EOF"), std::string::npos);
   if (!has_font()) GTEST_SKIP() << "no font";
   EXPECT_NE(pdf.find("/Type /Font"), std::string::npos);
-  EXPECT_EQ(pdf.find("/Subtype /Image"), std::string::npos);  // all of it is lines
+  EXPECT_EQ(pdf.find("/Subtype /Image"), std::string::npos);  // vector graphics only
 }
 
 TEST_F(Printed, RefusesWhatIsNoSvg) { EXPECT_THROW(static_cast<void>(printer_->pdf("<svg")), OutputError); }

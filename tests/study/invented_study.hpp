@@ -6,7 +6,7 @@
 
 namespace drape::test {
 
-/// Runs that take these times for a second of motion [ms].
+/// Makes runs with these times per second of motion [ms].
 inline CaseRuns invented_runs(const std::string& scene, double step, std::vector<double> costs) {
   CaseRuns runs;
   runs.what = {"a \"label\", quoted", scene, {"time.step=0.01", "integrator={method=\"liu13\"}"}, 10, 20};
@@ -27,7 +27,7 @@ inline MotionPoint invented_motion(const std::string& scene, StepMethod method, 
   return point;
 }
 
-/// A scene with all that a study can find, in numbers that nobody measured.
+/// Makes a scene with every possible finding of a study, with invented numbers.
 inline SceneAccuracy invented_scene(const std::string& name) {
   SceneAccuracy s;
   s.name = name;
@@ -68,7 +68,7 @@ inline SceneAccuracy invented_scene(const std::string& name) {
   for (MotionPoint& p : s.asked) {
     p.flip = 0.125;
     p.film_flip = {0.1, 0.15};
-    // Ten steps, of which five are before the cloth buckles; the last is missed and does not say so.
+    // Ten steps, five of them before the cloth buckles; the last misses its tolerance without reporting it.
     p.substeps = {4, 4, 4, 8, 8, 8, 16, 16, 16, 16};
     p.converged.assign(10, 1);
     p.estimates.assign(10, p.setting);

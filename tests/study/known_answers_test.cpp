@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(, EveryCase, testing::ValuesIn(all_case_names()), [](co
   return name;
 });
 
-// The figures of case.json were computed by other programs: SciPy's integrator, roots and elliptic integrals.
+// The values in case.json come from other programs: SciPy's integrator, root finders and elliptic integrals.
 TEST_P(EveryCase, SaysWhatTheoryDoes) {
   int compared = 0;
   for (const ValidationProblem& problem : case_.problems) {

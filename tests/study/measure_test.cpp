@@ -18,7 +18,7 @@ TEST(Measure, RunsEveryStepOfEveryCaseAsOftenAsAsked) {
   EXPECT_EQ(measured[1].height.size(), 100U);
   EXPECT_EQ(measured[0].microseconds.size(), 2U);
   EXPECT_EQ(progress.done, progress.total);
-  // Free fall of what is not held up yet: the damped cloth is a little above −g t²/2.
+  // The unsupported part falls freely: the damped cloth is a little above −g t²/2.
   const double time = 0.1;
   EXPECT_LT(measured[1].height.back(), -0.4 * 9.8 * time * time);
   EXPECT_GT(measured[1].height.back(), -0.51 * 9.8 * time * time);
@@ -31,7 +31,7 @@ TEST(Measure, RunsEachCaseUntilItsMedianIsKnownAndNoMoreThanThirtyTimes) {
   EXPECT_GE(all.size(), fewest_for_interval);
   EXPECT_LE(all.size(), 30U);
   EXPECT_TRUE(all.size() == 30 || measured.front().time().narrow());
-  EXPECT_FALSE(is_enough({all.begin(), all.end() - 1}, {}));  // it was not enough before the last
+  EXPECT_FALSE(is_enough({all.begin(), all.end() - 1}, {}));  // it was not enough before the last run
 }
 
 TEST(Measure, GivesUpACaseThatDivergesOrTakesTooLongIfItMayFail) {
@@ -58,7 +58,7 @@ TEST(Measure, ReturnsNothingWhenItIsStopped) {
   EXPECT_TRUE(measure({{"a", "scenes/homework/3.toml", {}, 31}}, 1, stop.get_token(), progress).empty());
 }
 
-// The tables' headings, in the report's words, against what the cases' scenes and overrides amount to.
+// The tables' headings, in the report's words, compared with the cases' scenes and overrides.
 TEST(HomeworkCases, AreThoseOfTheReport) {
   for (const HomeworkRow& row : homework_rows()) {
     SCOPED_TRACE(row.what.command());
@@ -83,7 +83,7 @@ TEST(HomeworkCases, AreThoseOfTheReport) {
   EXPECT_EQ(homework_rows().size(), 18U);
 }
 
-/// As many invented results as there are rows, with neither swings, flips nor differences between the cases.
+/// Makes invented results, one per row, without swings, flips or differences between the cases.
 std::vector<Measured> dull_results(const std::vector<StudyCase>& cases) {
   std::vector<Measured> results;
   for (const StudyCase& one : cases) {
@@ -106,7 +106,7 @@ TEST(Conclusions, AreNotConfirmedByResultsThatDoNotShowThem) {
   const std::vector<Measured> extras = dull_results(homework_extras());
   std::vector<bool> confirmed;
   for (const Conclusion& c : judge_conclusions(rows, tables, extras)) confirmed.push_back(c.confirmed);
-  // Without flips the implicit method looks right, and motions that are alike are alike.
+  // Without flips the implicit method looks right, and equal motions are judged equal.
   EXPECT_EQ(confirmed, (std::vector<bool>{true, false, false, false, false, true, true}));
 
   tables[find_row(rows, 3, "implicit", "1")].flipped_pairs = 4;

@@ -33,8 +33,8 @@ TEST(MedianInterval, BeginsAtTheOrderStatisticsOfTheTables) {
   }
 }
 
-// Counted out: of all 2ⁿ ways in which n values lie below or above the median, the interval holds it in 95 % at least,
-// and the next narrower one does not.
+// By enumeration: in at least 95 % of all 2ⁿ ways for n values to lie below or above the median, the interval holds it;
+// the next narrower interval holds it in fewer.
 TEST(MedianInterval, HoldsTheMedianAsOftenAsItSays) {
   for (std::size_t n = fewest_for_interval; n <= 16; ++n) {
     std::size_t held = 0, held_by_next = 0;

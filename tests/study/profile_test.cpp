@@ -9,8 +9,8 @@
 namespace drape {
 namespace {
 
-// By hand: two solvers, three problems. The first is solved by both, in 2 and 4 s; the second by the second alone; the
-// third by nobody.
+// By hand: two solvers, three problems. Both solve the first, in 2 and 4 s; only the second solver solves the second;
+// neither solves the third.
 TEST(PerformanceProfile, OfATableByHand) {
   const double never = INFINITY;
   const auto curves = performance_profile({{"p", "q", "r"}, {"a", "b"}, {{2, never, never}, {4, 3, never}}});
@@ -32,8 +32,8 @@ TEST(PerformanceProfile, TakesTheCheapestRunBelowTheTarget) {
   EXPECT_EQ(times.problems,
             (std::vector<std::string>{"a.toml, 1 mm", "a.toml, 0.1 mm", "b.toml, 1 mm", "b.toml, 0.1 mm"}));
   EXPECT_EQ(times.solvers, (std::vector<std::string>{"implicit", "verlet"}));
-  // Of the invented runs, see there: Newton's with h = 0.01 s is at 0.5 mm, and with an accuracy of 1e-3 too, which
-  // costs more; no other is below 0.1 mm but that of 1e-4. Verlet fails with the one that would be cheap.
+  // For the invented runs: Newton's with h = 0.01 s reaches 0.5 mm, as does an accuracy of 1e-3 at a higher cost; only
+  // that of 1e-4 is below 0.1 mm. Verlet fails with its cheap setting.
   EXPECT_DOUBLE_EQ(times.times[0][0], 20);
   EXPECT_DOUBLE_EQ(times.times[0][1], 90);
   EXPECT_DOUBLE_EQ(times.times[1][0], 5);

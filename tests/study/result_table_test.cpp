@@ -34,7 +34,7 @@ TEST(ResultTable, ComesInPartsThatFitTheWindow) {
                          {"method", "h", "iterations", "time", "factor"},
                          {{"liu13", "0.1", "2", "1.5", "9"}, {"liu13", "0.2", "3", "2.5", "8"}},
                          {}};
-  // Method and step tell the rows apart, so both are in every part.
+  // Method and step identify the rows, so both are in every part.
   EXPECT_EQ(to_text(wide, 31),
             "Wide\n"
             "  method    h  iterations  time\n"
@@ -66,7 +66,7 @@ std::string output_of(const std::string& command) {
   return pclose(pipe) == 0 ? text : "";
 }
 
-/// The cells of a table, row by row, as pandoc understands a file.
+/// Returns the cells of a table, row by row, as pandoc reads a file.
 std::vector<std::vector<std::string>> read_by_pandoc(const std::string& file, const std::string& format) {
   std::string html = output_of("pandoc --wrap=none -f " + format + " -t html '" + file + "'");
   const std::array<std::array<const char*, 2>, 7> written{
@@ -88,7 +88,7 @@ std::vector<std::vector<std::string>> read_by_pandoc(const std::string& file, co
   return rows;
 }
 
-// pandoc makes Word files of both; a reader who does not know a macro leaves the sign out.
+// pandoc converts both to Word files; a reader that does not know a macro drops the sign.
 TEST(ResultTable, HasTheSameCellsForThoseWhoReadLatexAndMarkdown) {
   if (output_of("pandoc --version 2>/dev/null").empty()) GTEST_SKIP() << "pandoc is not installed";
   const ResultTable all{
@@ -105,7 +105,7 @@ TEST(ResultTable, HasTheSameCellsForThoseWhoReadLatexAndMarkdown) {
   EXPECT_EQ(read_by_pandoc((folder.path() / "all.tex").string(), "latex"), expected);
 }
 
-/// A text as it is after a program has set its quotes and spaces.
+/// Undoes a program's typographic quotes and spaces.
 std::string without_typography(std::string text) {
   const std::array<std::array<const char*, 2>, 12> written{{{"`", "'"},
                                                             {"‘", "'"},
@@ -146,7 +146,7 @@ TEST(ResultTable, GivesSpreadsheetsNothingToCompute) {
   EXPECT_EQ(csv_line({"=1+1", "+cmd|' /C calc'!A0", "-x", "@SUM(A1)", "'=1", "it's"}),
             "'=1+1,'+cmd|' /C calc'!A0,'-x,'@SUM(A1),''=1,it's\n");
   EXPECT_EQ(csv_line({"\t=1", "\r=1", "=\"a\",b"}), "'\t=1,\"'\r=1\",\"'=\"\"a\"\",b\"\n");
-  // Numbers stay numbers, and so does what a spreadsheet takes for a text.
+  // Numbers stay numbers, as do values that a spreadsheet takes for text.
   EXPECT_EQ(csv_line({"-1.5", "+2e-3", "-inf", "1e999", "-1e-999", "–", "", "a=b"}),
             "-1.5,+2e-3,-inf,1e999,-1e-999,–,,a=b\n");
   for (const std::string& name : test::hostile_names) {

@@ -23,7 +23,7 @@ TEST(KernelClock, MeasuresWhatAMethodDoesAndChangesNoBits) {
     for (int i = 0; i < 5; ++i) watched.step();
     EXPECT_GT(clock.seconds(KernelPart::local), 0);
     EXPECT_GT(clock.seconds(KernelPart::global), 0);
-    EXPECT_EQ(clock.seconds(KernelPart::assembly), 0);  // liu13 has no matrix to assemble in a step
+    EXPECT_EQ(clock.seconds(KernelPart::assembly), 0);  // liu13 assembles no matrix in a step
     EXPECT_EQ(clock.seconds(KernelPart::product), 0);
   }
   EXPECT_EQ(&kernels(), &plain);

@@ -9,7 +9,7 @@
 namespace drape {
 namespace {
 
-/// A study with invented results, each another; it would take minutes to measure it.
+/// Makes a study with distinct invented results; measuring it would take minutes.
 StabilityStudy invented() {
   StabilityStudy study = plan_stability({.per_decade = 1, .steps = 20});
   double number = 0.1;
@@ -77,7 +77,7 @@ TEST_F(StabilityRuns, OfAnotherStudyAreRefused) {
             std::string::npos);
 }
 
-// Whatever else is measured beside it.
+// Independent of other measurements in the same shard.
 TEST(StabilityParts, HaveTheSameBitsInAnyShard) {
   const StabilityDetail detail{.per_decade = 1, .steps = 20};
   StabilityStudy together = plan_stability(detail), alone = plan_stability(detail);

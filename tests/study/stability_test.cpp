@@ -41,16 +41,22 @@ TEST_P(StabilityBorders, LieWhereTheyArePredicted) {
   EXPECT_LE(border.measured / border.predicted, 1.2);
 }
 
+<<<<<<< HEAD
 // Where a flat cloth's springs and the push are equally stiff, each moves in directions in which the other does not
 // resist, and the bound that adds them is too careful by √2 and what it is by for the springs alone.
 TEST(StabilityLimit, IsBeyondThePredictionWhereSpringsAndPushDoNotAddUp) {
+=======
+// If a flat cloth's springs and the push are equally stiff, each moves in directions in which the other does not
+// resist. The bound that adds them is then too small by √2, in addition to its margin for springs alone.
+TEST(StabilityLimit, IsBeyondThePredictionWhereSpringsAndPushDoNotAddUp) {
+>>>>>>> w4tmp
   constexpr double stiffness = 1.4e5;
   const StabilityLimit border = stability_border(Method::semi_implicit, StabilityAxis::push, stiffness);
   EXPECT_GE(border.measured / border.predicted, 0.98);
   EXPECT_LE(border.measured, 2 / std::sqrt(stiffness) * 1.002);
 }
 
-// The cells on both sides of the line of a map, in as many steps as a map's.
+// Cells on both sides of a map's line, with as many steps as a map has.
 TEST_P(StabilityBorders, PartTheCellsOfAMap) {
   const auto& [method, axis, stiffness] = GetParam();
   const double limit = stability_limit(method, axis, stiffness);
@@ -61,7 +67,7 @@ TEST_P(StabilityBorders, PartTheCellsOfAMap) {
   EXPECT_EQ(at(1.25), StabilityOutcome::blown_up);
 }
 
-// Implicit Euler damps: the longer its step, the more.
+// Implicit Euler damps more with longer steps.
 TEST(StabilityCell, LosesMoreEnergyWithALongerStep) {
   double before = 0;
   for (const double step : {1e-4, 1e-3, 1e-2}) {

@@ -18,7 +18,7 @@ duration = 1
 [effects.gravity]
 )";
 
-// Verlet's small steps, and those of SDIRK2 where a field is so steep that Verlet cannot have it.
+// Verlet's small steps, and those of SDIRK2 if a field is too steep for Verlet.
 TEST(StepReference, IsNearerToTheMotionTheSmallerItsStepsAre) {
   const test::SceneFolder folder;
   const std::string solved = "[effects.field]\nacceleration = [\"-1e-9*vx\", \"0\", \"0\"]\nstiffness_bound = 1e9\n";
@@ -39,7 +39,7 @@ TEST(StepReference, IsNearerToTheMotionTheSmallerItsStepsAre) {
   const StepReference plain = reference(soft_scene, 8, 1);
   const double wanted = plain.gained(0) / 10;
   const StepReference refined = reference(soft_scene, 8, wanted);
-  EXPECT_EQ(refined.step, plain.step / 4);  // of second order: four times nearer with each halving
+  EXPECT_EQ(refined.step, plain.step / 4);  // of second order: each halving reduces the error fourfold
   EXPECT_LE(refined.gained(0), wanted);
 }
 

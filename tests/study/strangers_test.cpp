@@ -1,4 +1,4 @@
-// The runs of a study that somebody else has sent: a report is made of them, or they are refused.
+// Untrusted study runs: a report is made of them, or they are refused.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 class StrangersStudy : public test::InScratchFolder {
  protected:
-  /// Makes what drape study accuracy --report-only makes of lines, the last of which is right about their number.
+  /// Makes the report of drape study accuracy --report-only from lines, with a correct last line about their number.
   void report_on(std::vector<std::string> lines) const {
     lines.push_back(",end,,,,,rows," + std::to_string(lines.size() - 1));
     std::string text;
@@ -27,10 +27,10 @@ class StrangersStudy : public test::InScratchFolder {
     const StudyReport report = accuracy_report(read_runs(folder_));
     EXPECT_FALSE(to_page(report).empty() || to_markdown(report).empty() || to_text(report, 80).empty());
   }
-  /// All lines but the last.
+  /// Returns all lines but the last.
   static std::vector<std::string> good_lines() {
     AccuracyStudy study = test::invented_study();
-    for (SceneAccuracy& scene : study.scenes) scene.notes.clear();  // which have line ends in them
+    for (SceneAccuracy& scene : study.scenes) scene.notes.clear();  // notes contain line ends
     std::vector<std::string> lines;
     std::istringstream text(runs_csv(study));
     for (std::string line; std::getline(text, line);) lines.push_back(line);

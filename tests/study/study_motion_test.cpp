@@ -14,7 +14,7 @@ namespace {
 
 class StudyMotions : public testing::Test {
  protected:
-  /// A grid that falls for so many steps of 10 ms.
+  /// Records a grid that falls for some steps of 10 ms.
   [[nodiscard]] StudyMotion record(int cells, int steps, const std::string& more = {}) const {
     const std::string file =
         folder_
@@ -41,7 +41,7 @@ TEST_F(StudyMotions, AreWholeAndEvenlySpacedHoweverLongTheyAre) {
     EXPECT_GE(frames, std::min(steps + 1, 50)) << steps;
     EXPECT_LE((frames - 1) * between, 0.01 * steps + 1e-9) << steps;
     EXPECT_GT(frames * between, 0.01 * steps - 1e-9) << steps << ": less than a frame is missing at the end";
-    // Where nothing holds it, it falls: the box around the motion is as high as the way.
+    // Without a support it falls: the motion's bounding box is as high as the fall.
     const double height = description["highest"][2].get<double>() - description["lowest"][2].get<double>();
     const double time = (frames - 1) * between;
     EXPECT_NEAR(height, 0.5 * 9.8 * time * (time + 0.01), 1e-3 * height + 1e-4) << steps;

@@ -145,14 +145,14 @@ TEST_F(ValidationRuns, OfCsvAnswersAreJudged) {
   EXPECT_FALSE(read_answers(of, path("c.csv"), "").front().met());
 }
 
-/// Bytes of a little-endian number.
+/// Returns the bytes of a little-endian number.
 std::string bytes_of(std::uint64_t number, int count) {
   std::string bytes;
   for (int k = 0; k < count; ++k) bytes += static_cast<char>(number >> (8 * k) & 0xFFU);
   return bytes;
 }
 
-/// An NPZ file with one array as numpy.savez writes it, without checksums.
+/// Makes an NPZ file with one array as numpy.savez writes it, without checksums.
 std::string npz(const std::string& name, const std::string& header, const std::vector<double>& values) {
   std::string array = "\x93NUMPY";
   array += {1, 0};
@@ -199,13 +199,13 @@ TEST_F(ValidationRuns, OfNpzMotionsAreMeasured) {
                "in C order");
 }
 
-/// Shards share the runs of a plan, and merged they are the plan again.
+/// Shards divide the runs of a plan, and merged they are the plan again.
 TEST_F(ValidationRuns, OfShardsAreThoseOfTheWhole) {
   const auto plan = [](const Shard& shard) {
     ValidationStudy study =
         plan_validation({.cases = {"pattern-stiffness", "pendulum"}, .quick = true, .shard = shard});
     study.command = "drape study validation pattern-stiffness pendulum --quick";
-    for (ValidationRun& run : study.runs) {  // invented: it would take a while to measure them
+    for (ValidationRun& run : study.runs) {  // invented: measuring them would take a while
       run.measured = true;
       run.names = {"modulus"};
       run.values = {static_cast<double>(run.problem.size())};

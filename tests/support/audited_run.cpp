@@ -13,7 +13,7 @@ namespace {
 
 using namespace audit;
 
-/// Audits steps one after the other, and keeps the topologies of the cloth and the bodies.
+/// Audits steps in order, and keeps the topologies of the cloth and the bodies.
 class Auditor {
  public:
   Auditor(const std::vector<Triangle>& cloth, const std::vector<Collider>& colliders) : cloth_(make_topology(cloth)) {
@@ -65,7 +65,7 @@ class Auditor {
   }
 
   Topology cloth_;
-  std::vector<Topology> bodies_;  // as the colliders; empty for those that are no meshes
+  std::vector<Topology> bodies_;  // in the order of the colliders; empty for colliders other than meshes
 };
 
 }  // namespace

@@ -9,17 +9,17 @@
 
 namespace drape::test {
 
-/// Findings of the exact checker over all steps of a run: the cloth with itself and with every body.
+/// Findings of the exact checker over all steps of a run, for the cloth with itself and with every body.
 struct AuditedRun {
   int steps = 0;
-  int with_passages = 0;           ///< steps in which something met on its straight way
-  int with_crossings = 0;          ///< steps that end with an edge through a triangle
-  double deepest = 0;              ///< of a vertex in a closed body, a sphere or a ground after any step [m]
-  audit::EnergyRise rise;          ///< of the total energy, whatever did work
+  int with_passages = 0;   ///< steps with an intersection on the straight paths
+  int with_crossings = 0;  ///< steps that end with an edge through a triangle
+  double deepest = 0;      ///< greatest depth of a vertex in a closed body, a sphere or a ground after any step [m]
+  audit::EnergyRise rise;  ///< of the total energy, including all work
   std::vector<std::string> first;  ///< the first findings, at most ten: "step 3: cloth edge 1 2 meets …"
 };
 
-/// Simulates so many steps and audits each.
+/// Simulates `steps` steps and audits each.
 AuditedRun audit_run(const SimulationSettings& settings, std::int64_t steps);
 
 }  // namespace drape::test

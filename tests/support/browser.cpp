@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Where a program is on the PATH; empty if it is not.
+/// Returns the path of a program on the PATH; empty if there is none.
 std::string find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
@@ -26,7 +26,7 @@ std::string find_program(const std::string& name) {
   return {};
 }
 
-/// Starts chromedriver on a free port, which it prints.
+/// Starts chromedriver on a free port and returns its process and the port that it prints.
 std::pair<pid_t, int> start_driver() {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
@@ -119,7 +119,7 @@ Json Browser::command(const std::string& name, const Json& parameters) {
 
 void Browser::open_tab() {
   const Json tab = post("/window/new", {{"type", "tab"}});
-  client_->Delete(session_ + "/window");  // the one before
+  client_->Delete(session_ + "/window");  // closes the previous tab
   post("/window", {{"handle", tab.at("handle")}});
 }
 
@@ -183,7 +183,8 @@ std::vector<std::string> Browser::console_problems() {
   for (const Json& entry : log("browser")) {
     const std::string level = entry.at("level");
     const std::string text = entry.at("message");
-    if (text.find("GL Driver Message (OpenGL, Performance") != std::string::npos) continue;  // of a machine without one
+    if (text.find("GL Driver Message (OpenGL, Performance") != std::string::npos)
+      continue;  // on machines without a GPU
     if (level == "SEVERE" || level == "WARNING") problems.push_back(text);
   }
   return problems;
@@ -201,7 +202,8 @@ std::vector<std::string> Browser::requests() {
 }
 
 void Browser::save_screenshot(const std::filesystem::path& png) {
-  const Json size = run("return [innerWidth, document.documentElement.scrollHeight]");  // beneath the scrollbar, too
+  const Json size =
+      run("return [innerWidth, document.documentElement.scrollHeight]");  // includes the part beneath the scrollbar
   const Json whole = {{"x", 0}, {"y", 0}, {"width", size.at(0)}, {"height", size.at(1)}, {"scale", 1}};
   const Json picture =
       command("Page.captureScreenshot", {{"format", "png"}, {"captureBeyondViewport", true}, {"clip", whole}});

@@ -17,7 +17,7 @@ namespace drape::test {
 /// A headless Chromium, driven through chromedriver by the WebDriver protocol (W3C).
 class Browser {
  public:
-  /// Why there is no browser on this machine; empty if there is one.
+  /// Returns why there is no browser on this machine; empty if there is one.
   static std::string missing();
 
   /// @throws std::runtime_error if it does not start
@@ -26,34 +26,34 @@ class Browser {
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
 
-  /// Goes on in a new tab, as if the browser had just been started, which takes far longer.
+  /// Continues in a new tab, equivalent to a new browser but far faster.
   void open_tab();
 
-  /// Opens a file by its file:// address and forgets what was reported of earlier pages.
+  /// Opens a file by its file:// address and discards reports about earlier pages.
   void open(const std::filesystem::path& file);
 
-  /// @param dark whether the person prefers dark pages
+  /// Sets the user's preferred theme. @param dark true for dark pages
   void set_theme(bool dark);
-  /// Shows the page as it is printed, until the next set_theme().
+  /// Shows the page as printed, until the next set_theme().
   void set_print(bool dark);
-  /// @param width of the window's inside [CSS pixels]
+  /// @param width inner width of the window [CSS pixels]
   void set_width(int width);
 
   /// Runs the body of a JavaScript function in the page and returns its result.
   nlohmann::json run(const std::string& body);
 
-  /// Presses keys where the focus is, as a person would: plain characters, or the key codes of WebDriver.
+  /// Presses keys at the focus: plain characters, or WebDriver's key codes.
   void press(const std::string& keys);
-  /// Moves the pointer to the middle of the first element that the CSS selector finds, without pressing it.
+  /// Moves the pointer to the middle of the first element that the CSS selector matches, without a click.
   void point_at(const std::string& selector);
   void click(const std::string& selector);
 
-  /// Errors and warnings in the console since open().
+  /// Returns errors and warnings in the console since open().
   std::vector<std::string> console_problems();
-  /// Addresses that were asked for since open(), without data: and the page itself.
+  /// Returns the addresses requested since open(), except data: addresses and the page itself.
   std::vector<std::string> requests();
 
-  /// A picture of the whole page, not only of the part in the window.
+  /// Saves a picture of the whole page, including parts outside the window.
   void save_screenshot(const std::filesystem::path& png);
 
   static constexpr const char* arrow_left = "\uE012";

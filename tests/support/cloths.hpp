@@ -11,13 +11,13 @@
 
 namespace drape::test {
 
-/// A grid as the homework has it, 1 kg, pinned at two corners.
+/// Makes a grid like the homework's, 1 kg, pinned at two corners.
 inline Cloth grid_cloth(int cells, double stiffness = 180) {
   const Mesh grid = make_grid(cells, cells);
   return make_cloth(grid, grid, 1.0, stiffness, {0, cells});
 }
 
-/// Vertices strewn over a bent sheet in no order, so that no spring follows another.
+/// Makes a bent sheet with shuffled vertex numbers, so that its springs have no regular order.
 inline Cloth irregular_cloth(double stiffness = 180) {
   Mesh mesh = make_grid(9, 7);
   const int n = static_cast<int>(mesh.positions.rows());
@@ -34,7 +34,7 @@ inline Cloth irregular_cloth(double stiffness = 180) {
   return make_cloth(result, result, 1.0, stiffness, {shuffled(0), shuffled(5)});
 }
 
-/// Three sheets that meet in one edge, and a vertex that belongs to nothing.
+/// Makes three sheets that meet in one edge, and an isolated vertex.
 inline Cloth non_manifold_cloth(double stiffness = 180) {
   Mesh mesh;
   mesh.positions.resize(6, 3);
@@ -43,7 +43,7 @@ inline Cloth non_manifold_cloth(double stiffness = 180) {
   return make_cloth(mesh, mesh, 1.0, stiffness, {2});
 }
 
-/// The same cloth stretched here and compressed there, and in motion.
+/// Makes the cloth move, with some springs stretched and others compressed.
 inline Cloth disturbed(Cloth cloth) {
   for (Eigen::Index v = 0; v < cloth.positions.rows(); ++v) {
     const auto t = static_cast<double>(v);
@@ -53,7 +53,7 @@ inline Cloth disturbed(Cloth cloth) {
   return cloth;
 }
 
-/// The homework's sphere under the cloth.
+/// Makes the homework's sphere, below the cloth.
 inline Sphere sphere() { return {.center = Eigen::Vector3d(0, 0, -0.5), .radius = 0.4}; }
 
 }  // namespace drape::test

@@ -10,7 +10,7 @@
 
 namespace drape::test {
 
-/// The frames of a video or GIF, as a player shows them.
+/// Decodes the frames of a video or GIF as a player does.
 inline std::vector<Image> decoded_film(const std::filesystem::path& file) {
   std::vector<Image> film;
   cv::VideoCapture video(file.string(), cv::CAP_FFMPEG);
@@ -23,7 +23,7 @@ inline std::vector<Image> decoded_film(const std::filesystem::path& file) {
   return film;
 }
 
-/// Peak signal-to-noise ratio [dB] between pictures of one size.
+/// Computes the peak signal-to-noise ratio [dB] of two pictures of one size.
 inline double psnr(const Image& a, const Image& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::pow(a.pixels[i] - b.pixels.at(i), 2);

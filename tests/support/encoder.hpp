@@ -8,7 +8,7 @@
 
 namespace drape::test {
 
-/// The sink of an output that must be drawn.
+/// Makes the sink of a drawn output.
 inline std::unique_ptr<Encoder> make_encoder(const std::string& path, const FilmInfo& film) {
   return std::get<std::unique_ptr<Encoder>>(make_sink(path, film));
 }

@@ -6,7 +6,7 @@
 
 namespace drape::test {
 
-/// While it lives, no file of this process can grow beyond a size: writing fails, as it does on a full disk.
+/// Limits the size of this process's files during its lifetime: writing beyond it fails, as on a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

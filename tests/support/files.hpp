@@ -7,7 +7,7 @@
 
 namespace drape::test {
 
-/// The bytes of a file; none if it cannot be read.
+/// Returns the bytes of a file; empty if it cannot be read.
 inline std::string content(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

@@ -10,11 +10,11 @@
 
 namespace drape::test {
 
-/// What the blocks of a GIF say about how it is played (GIF89a specification, 1990). Does not decode pictures.
+/// Playback data in the blocks of a GIF (GIF89a specification, 1990), without its pictures.
 struct GifFile {
   int width = 0, height = 0;
   std::vector<int> delays;  ///< of each frame [1/100 s]
-  int loops = -1;           ///< 0: for ever; -1: not given, played once
+  int loops = -1;           ///< 0: for ever; -1: absent, played once
 };
 
 inline GifFile read_gif(const std::filesystem::path& file) {
@@ -32,7 +32,7 @@ inline GifFile read_gif(const std::filesystem::path& file) {
   GifFile gif{word(6), word(8), {}, -1};
   std::size_t i = 13 + color_table(bytes[10]);
   while (bytes.at(i) != 0x3B) {
-    if (bytes[i] == 0x2C) {  // an image: descriptor, colours, and after the code size its data
+    if (bytes[i] == 0x2C) {  // image: descriptor, colours, code size, data
       i = after_sub_blocks(i + 10 + color_table(bytes.at(i + 9)) + 1);
       continue;
     }

@@ -5,9 +5,8 @@
 
 namespace drape::test {
 
-/// Names of scenes, files and machines that mean something to somebody wherever they are not escaped: to HTML, XML,
-/// Markdown, LaTeX, spreadsheets, shells, terminals, build servers and Slurm. A shell that runs them makes a file
-/// "owned".
+/// Names of scenes, files and machines with a special meaning, if not escaped, in HTML, XML, Markdown, LaTeX,
+/// spreadsheets, shells, terminals, build servers or Slurm. A shell that executes one makes a file "owned".
 inline const std::vector<std::string> hostile_names{"it's \"quoted\"",
                                                     "<script>alert(1)</script>",
                                                     "<img src=x onerror=alert(1)>&amp;",
@@ -37,7 +36,7 @@ inline const std::vector<std::string> hostile_names{"it's \"quoted\"",
                                                     "tab\tand back\\slash",
                                                     std::string(4096, 'x')};
 
-/// Whether a text has what talks to a terminal or turns the direction of writing.
+/// Returns true for a text with control characters, or characters that change the direction of writing.
 inline bool has_controls(const std::string& text) {
   for (const unsigned char c : text) {
     if ((c < 0x20 && c != '\n' && c != '\t') || c == 0x7f) return true;

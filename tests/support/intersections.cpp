@@ -43,7 +43,7 @@ bool share(const Edge& e, const Triangle& t) {
   return std::any_of(t.begin(), t.end(), [&](int v) { return v == e[0] || v == e[1]; });
 }
 
-/// The roots of a + b t + c t² + d t³ in [0, 1] where it changes its sign.
+/// Returns the roots of a + b t + c t² + d t³ in [0, 1] at which it changes its sign.
 std::vector<double> sign_changes(double a, double b, double c, double d) {
   const auto value = [&](double t) { return a + t * (b + t * (c + t * d)); };
   std::vector<double> ends{0};
@@ -86,7 +86,7 @@ struct Four {
   Point place(std::size_t i, double t) const { return at[i] + t * move[i]; }
 };
 
-/// Vertex 0 through the triangle of the others.
+/// Returns true if vertex 0 passes through the triangle of the others.
 bool vertex_crosses(const Four& f) {
   return std::ranges::any_of(f.coplanar_times(), [&](double t) {
     const Point p = f.place(0, t), a = f.place(1, t), b = f.place(2, t), c = f.place(3, t);
@@ -95,7 +95,7 @@ bool vertex_crosses(const Four& f) {
   });
 }
 
-/// Edge 0–1 through edge 2–3.
+/// Returns true if edge 0–1 passes through edge 2–3.
 bool edges_cross(const Four& f) {
   return std::ranges::any_of(f.coplanar_times(), [&](double t) {
     const Point a = f.place(0, t), b = f.place(1, t), c = f.place(2, t), d = f.place(3, t);

@@ -12,7 +12,7 @@ std::vector<bool> pinned(const Cloth& cloth) {
   return is_pin;
 }
 
-/// M/h² + the sum over the springs of [K −K; −K K], with blocks of `size` rows per vertex.
+/// Assembles M/h² + the sum over the springs of [K −K; −K K], with blocks of `size` rows per vertex.
 template <class Block>
 SparseMatrix assemble(const System& system, int size, const Block& block_of) {
   const Cloth& cloth = system.cloth;

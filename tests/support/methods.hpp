@@ -11,18 +11,18 @@
 
 namespace drape::test {
 
-/// A method, for an implicit one the scheme, and for Newton's method the way its equations are solved.
+/// A method, with its scheme if it is implicit, and its linear solver if it is Newton's.
 struct Solver {
   Method method = Method::liu13;
   LinearSolver linear_solver = LinearSolver::automatic;
   TimeScheme scheme = TimeScheme::backward_euler;
 
-  // Implicit: where nothing is said about the others, a method is all that a test needs to name.
+  // Implicit conversion: most tests only name a method.
   constexpr Solver(Method m, LinearSolver l = LinearSolver::automatic) : method(m), linear_solver(l) {}
   constexpr Solver(Method m, TimeScheme s) : method(m), scheme(s) {}
 
   [[nodiscard]] constexpr bool is_explicit() const { return drape::is_explicit(method); }
-  /// Whether its motions are of second order; those of the others are of first.
+  /// Returns true for second-order motions; all others are first-order.
   [[nodiscard]] constexpr bool second_order() const {
     return method == Method::verlet || (!is_explicit() && scheme == TimeScheme::sdirk2);
   }
@@ -32,7 +32,7 @@ struct NamedMethod : Solver {
   const char* name = "";
 };
 
-/// Every method. A new one is tested by everything that is parametrised over methods once it stands here.
+/// Every method. Tests parametrised over methods test all methods in this list.
 inline constexpr std::array all_methods{
     NamedMethod{Method::semi_implicit, "SemiImplicit"},
     NamedMethod{Method::implicit, "Implicit"},
@@ -45,25 +45,25 @@ inline constexpr std::array all_methods{
     NamedMethod{{Method::quasi_newton, TimeScheme::sdirk2}, "QuasiNewtonSdirk2"},
 };
 
-/// `count` of them from the one at `first` on.
+/// `count` methods from index `first` on.
 template <std::size_t first, std::size_t count>
 inline constexpr auto some_methods = [] {
   auto some = [&]<std::size_t... i>(std::index_sequence<i...>) { return std::array{all_methods[first + i]...}; };
   return some(std::make_index_sequence<count>());
 }();
 
-/// Those that minimise nothing.
+/// Methods without a minimisation.
 inline constexpr std::array explicit_methods{all_methods[0], all_methods[5]};
-/// Those that minimise the steps of backward Euler.
+/// Methods that minimise the steps of backward Euler.
 inline constexpr auto implicit_methods = some_methods<1, 4>;
-/// Those whose motions are of second order.
+/// Methods with second-order motions.
 inline constexpr auto second_order_methods = some_methods<5, 4>;
-/// Those that minimise the stages of SDIRK2.
+/// Methods that minimise the stages of SDIRK2.
 inline constexpr auto sdirk2_methods = some_methods<6, 3>;
 
 inline void PrintTo(const NamedMethod& method, std::ostream* out) { *out << method.name; }
 
-/// Ends the name of a parametrised test with the method's.
+/// Names a parametrised test after its method.
 inline std::string method_name(const testing::TestParamInfo<NamedMethod>& info) { return info.param.name; }
 
 }  // namespace drape::test

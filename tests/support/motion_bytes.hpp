@@ -6,7 +6,7 @@
 
 namespace drape::test {
 
-/// A motion.bin of any words, which pack_motion() need not be able to make.
+/// Makes a motion.bin of arbitrary words, including invalid ones that pack_motion() cannot write.
 inline std::string motion_bytes(const Words& words) { return "drape motion 2\n" + pack_words(words); }
 
 }  // namespace drape::test

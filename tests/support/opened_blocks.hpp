@@ -13,11 +13,11 @@
 
 namespace drape::test {
 
-/// A block of a motion file or a checkpoint, as it is before it is packed.
+/// An unpacked block of a motion file or a checkpoint.
 struct OpenedBlock {
   std::string tag;
-  std::string head;   ///< what is not packed
-  std::string plain;  ///< the rest, unpacked
+  std::string head;   ///< unpacked part of the file
+  std::string plain;  ///< the rest, decompressed
   bool changed = false;
 
   [[nodiscard]] std::string payload() const {
@@ -26,16 +26,16 @@ struct OpenedBlock {
     return head + (planes ? pack_planes(from_byte_planes(plain)) : pack(plain));
   }
 
-  /// The words whose planes it has.
+  /// Returns the words stored as byte planes.
   [[nodiscard]] std::vector<std::uint64_t> words() const { return from_byte_planes(plain); }
   void set_words(const std::vector<std::uint64_t>& words) { plain = byte_planes(words); }
 };
 
-/// A motion file or a checkpoint whose parts can be changed: sealed again, everything in it has the right size and
-/// checksum, and an index that was not changed itself leads to the blocks.
+/// A motion file or a checkpoint with editable parts. sealed() restores sizes and checksums, and an index that was not
+/// edited itself leads to the blocks.
 class OpenedBlocks {
  public:
-  /// @param bytes of a file that is not damaged
+  /// @param bytes content of an intact file
   explicit OpenedBlocks(std::string_view bytes) : magic_(bytes.substr(0, bytes.find('\n') + 1)) {
     constexpr std::size_t block_head_size = 16, end_size = 16;
     complete_ = bytes.ends_with(motion_end);
@@ -47,7 +47,7 @@ class OpenedBlocks {
     }
   }
 
-  /// Flips bits of one byte: of the part that is not packed, or of what is.
+  /// Flips bits of one byte, in a block's head or in its decompressed rest.
   void change(std::size_t block, std::size_t place, std::uint8_t bits) {
     OpenedBlock& of = blocks[block % blocks.size()];
     const std::size_t size = of.head.size() + of.plain.size();
@@ -58,7 +58,7 @@ class OpenedBlocks {
     of.changed = true;
   }
 
-  /// The k-th block with a tag.
+  /// Returns the k-th block with a tag.
   OpenedBlock& block(std::string_view tag, std::size_t k = 0) {
     for (OpenedBlock& block : blocks) {
       if (block.tag == tag && k-- == 0) return block;

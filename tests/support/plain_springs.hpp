@@ -8,17 +8,17 @@
 
 namespace drape::test {
 
-/// E(x) = Σ k/2 (‖xᵢ − xⱼ‖ − L)² [J], as it is written.
+/// Computes E(x) = Σ k/2 (‖xᵢ − xⱼ‖ − L)² [J] literally.
 double plain_energy(const std::vector<Spring>& springs, const Vertices& x);
 
-/// ∇E(x), n×3 [N], as it is written; zero for a spring of zero length.
+/// Computes ∇E(x), n×3 [N], literally; zero for a spring of zero length.
 Vertices plain_gradient(const std::vector<Spring>& springs, const Vertices& x);
 
-/// Where a cloth gets within a time, in the limit of small steps: the classical Runge-Kutta method of fourth order on
+/// Computes a cloth's state after a time in the limit of small steps, by the classical fourth-order Runge-Kutta method:
 ///   m ẍ = −∇E(x) + m a + m ln(d) ẋ,
-/// whose last term is what v *= dʰ after every step becomes as h → 0.
+/// whose last term is the limit of v *= dʰ after every step as h → 0.
 /// @param acceleration a, of every vertex [m/s²]
-/// @param damping      d, what is left of a velocity after one second
+/// @param damping      d, fraction of a velocity that remains after one second
 State exact_motion(const Cloth& cloth, const Eigen::Vector3d& acceleration, double damping, double duration, int steps);
 
 }  // namespace drape::test

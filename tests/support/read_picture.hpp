@@ -9,14 +9,14 @@
 
 namespace drape::test {
 
-/// The colours in the bytes of a picture, blue, green, red; none if they are damaged. Here OpenCV is loaded when a test
-/// first asks: whoever links its decoders takes ten times as long to start, and every test is a process.
+/// Decodes a picture to blue, green, red; empty if it is damaged. OpenCV is loaded at first use: a program that links
+/// its decoders starts ten times slower, and every test is a process.
 inline cv::Mat decoded_picture(std::string_view bytes) {
   constexpr int colours = 1;  // cv::IMREAD_COLOR
   return decode_picture(bytes, colours);
 }
 
-/// The colours of a picture's file, blue, green, red; none if it cannot be read.
+/// Reads a picture file as blue, green, red; empty if it cannot be read.
 inline cv::Mat read_picture(const std::filesystem::path& file) { return decoded_picture(content(file)); }
 
 }  // namespace drape::test

@@ -7,7 +7,7 @@
 
 namespace drape::test {
 
-/// A golden of random numbers, rounded as it says.
+/// Makes a golden of random numbers, rounded to its own precision.
 inline Golden sample_golden(int vertices, std::int64_t steps, std::int64_t window_steps,
                             const std::vector<int>& frames) {
   std::mt19937 generator(17);

@@ -9,7 +9,7 @@
 
 namespace drape::test {
 
-/// A folder for scene files that a test writes.
+/// A folder for a test's scene files.
 class SceneFolder : public ScratchFolder {
  public:
   std::filesystem::path write(const std::string& name, const std::string& text) const {
@@ -20,7 +20,7 @@ class SceneFolder : public ScratchFolder {
     return load_scene(write("scene.toml", text), overrides);
   }
 
-  /// What is wrong with a scene, without the folder's name: "scene.toml:1:1: missing table [cloth]"; or "(no error)".
+  /// Returns a scene's errors without the folder's name: "scene.toml:1:1: missing table [cloth]"; or "(no error)".
   [[nodiscard]] std::string problems(const std::string& text, const std::vector<std::string>& overrides = {}) const {
     return without_folder(usage_error([&] { static_cast<void>(load(text, overrides)); }));
   }
@@ -32,8 +32,8 @@ class SceneFolder : public ScratchFolder {
   }
 };
 
-/// The least that a scene must say; a test adds lines. It has five. Not inline, as no such text is: a file has its own,
-/// made before those that it makes from it.
+/// A minimal scene of five lines, which tests extend. Not inline, like all such texts: each file has its own,
+/// initialised before the texts that the file makes of it.
 const std::string least_scene =
     "[cloth]\n"
     "mesh = { grid = [2, 2] }\n"
@@ -41,13 +41,13 @@ const std::string least_scene =
     "[time]\n"
     "step = 0.01\n";
 
-/// A scene that lacks nothing, with one line of a table, which is line 5.
+/// Returns a complete scene with one line of a table, which is line 5.
 inline std::string with(const std::string& table, const std::string& line) {
   const std::string text = "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 10\n";
   return text + (table == "cloth" ? "" : "[" + table + "]") + "\n" + line + "\n";
 }
 
-/// A cloth that swings on one corner, in ten steps; a test adds tables.
+/// A cloth that swings from one corner, in ten steps; tests add tables.
 const std::string swinging_cloth =
     "[cloth]\n"
     "mesh = { grid = [6, 6] }\n"

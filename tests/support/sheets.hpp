@@ -13,19 +13,19 @@ inline constexpr double height = 0.25 / 1.4142135623730951;
 
 Cloth square(int count = cells);
 
-/// A hexagon of equilateral triangles, with so many of them along a side of 1 m.
+/// Makes a hexagon of equilateral triangles, `count` of them along a side of 1 m.
 Cloth hexagon(int count);
 
-/// A square without its triangles whose middle is in a rectangle.
+/// Makes a square without the triangles whose middle is in a rectangle.
 Cloth cut_square(int count, double from_x, double to_x, double from_y, double to_y);
 Cloth holed(int count = cells);
 Cloth notched(int count = cells);
 
-/// As many zeros as a cloth's vertices have coordinates.
+/// Returns zeros of the shape of a cloth's positions.
 Vertices at_rest(const Cloth& cloth);
 
-/// The smallest distance of features that share no vertex, while they move, and the smallest part that any keeps of
-/// what it begins with: by looking at all pairs at many times.
+/// Smallest distance of features without a common vertex during a motion, and smallest ratio of a distance to its
+/// initial value, found by testing all pairs at many times.
 struct Nearness {
   double distance, part;
 };

@@ -24,8 +24,8 @@ bool circumcircle_holds(const Plane& a, const Plane& b, const Plane& c, const Pl
          0;
 }
 
-/// The Delaunay triangulation of points (Bowyer 1981, Watson 1981). They are moved by 1e-10 in it: no four lie on a
-/// circle then.
+/// Computes the Delaunay triangulation of points (Bowyer 1981, Watson 1981), perturbed by 1e-10 so that no four points
+/// lie on a circle.
 std::vector<Triangle> delaunay(std::vector<Plane> points) {
   const auto count = static_cast<int>(points.size());
   Random random(9);
@@ -34,7 +34,7 @@ std::vector<Triangle> delaunay(std::vector<Plane> points) {
   const auto at = [&](int vertex) { return points[static_cast<std::size_t>(vertex)]; };
   std::vector<Triangle> triangles{{count, count + 1, count + 2}};
   for (int p = 0; p < count; ++p) {
-    std::map<Edge, int> border;  // of what holds p, by how many
+    std::map<Edge, int> border;  // edges of the triangles whose circumcircle holds p
     std::erase_if(triangles, [&](const Triangle& t) {
       if (!circumcircle_holds(at(t[0]), at(t[1]), at(t[2]), at(p))) return false;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -48,7 +48,7 @@ std::vector<Triangle> delaunay(std::vector<Plane> points) {
   return triangles;
 }
 
-/// Points at least 0.62 spacings apart between fixed ones, and, relaxed, each at the middle of the triangles around it.
+/// Places points at least 0.62 spacings apart between fixed ones; relaxed, each at the middle of its triangles.
 Mesh random_sheet(std::vector<Plane> points, const Plane& low, const Plane& high, double spacing, bool relaxed) {
   const std::size_t fixed = points.size();
   Random random(5);
@@ -103,7 +103,7 @@ Mesh rectangle(Division division, int columns, int rows, const Plane& low, const
   return mesh;
 }
 
-/// Pins what `clamped` says of a place.
+/// Pins the vertices at positions for which `clamped` is true.
 template <class Clamped>
 Sheet with_pins(Mesh mesh, Clamped clamped) {
   std::vector<int> pins;

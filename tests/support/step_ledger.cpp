@@ -44,11 +44,11 @@ StepLedger::Value StepLedger::value_of(const Vertices& x, double time) const {
   for (const Spring& s : system_.springs) {
     const Eigen::Matrix<Real, 1, 3> d = x.row(s.i).cast<Real>() - x.row(s.j).cast<Real>();
     const Real length = d.norm(), stretch = length - s.rest_length;
-    // A double knows where the ends are to half a unit of their distance from the origin.
+    // A double locates the ends to half a unit of their distance from the origin.
     const Real rounding = unit * (x.row(s.i).norm() + x.row(s.j).norm() + s.rest_length);
     value.elastic += Real(0.5) * s.stiffness * stretch * stretch;
     value.energy_rounding += s.stiffness * (std::abs(stretch) + rounding) * rounding;
-    // Where a spring is compressed the direction of its force is what rounding changes most.
+    // For a compressed spring rounding changes mainly the direction of its force.
     const Real turned = length > 0 ? std::min(Real(1), rounding / length) * std::abs(stretch) : 0;
     squares += s.stiffness * s.stiffness * (rounding + turned) * (rounding + turned);
     if (length == 0) continue;
@@ -118,7 +118,7 @@ StepBalance StepLedger::balance(const State& before, const State& after) const {
       4 * (new_value.energy_rounding + old_value.energy_rounding + start_value.energy_rounding) +
       8 * unit * (b.start_value + b.end_value + b.energy_before) +
       8 * unit * std::sqrt(squared(reach, masses_) * squared(after.x.cast<Real>() - y, masses_)) / (h * h);
-  // The momentum of a cloth that nothing holds is kept by sums over all vertices, which round more.
+  // Sums over all vertices, which round more, conserve the momentum of a free cloth.
   b.kinetic_rounding = 128 * unit * std::sqrt(squared(reach, masses_) * squared(change, masses_)) / (h * h);
   b.tolerated = tolerated(b, f, change, tolerance(before, after));
   return b;

@@ -16,8 +16,8 @@ inline Image plain_image(int width, int height, Color color) {
   return image;
 }
 
-/// A frame as hard to encode as a real one, without a renderer: a checked, woven, shaded cloth that waves, and a glossy
-/// red ball that moves, before one colour. No pixel of the top row or of the leftmost column shows anything else.
+/// Makes a frame as hard to encode as a rendered one: a waving cloth, checked, woven and shaded, and a moving glossy
+/// red ball, on a plain background. The top row and the leftmost column show only background.
 inline Image synthetic_frame(int k, int width, int height, Color background = {255, 255, 255}) {
   Image image = plain_image(width, height, background);
   const auto put = [&](int x, int y, double r, double g, double b) {

@@ -6,7 +6,7 @@
 
 namespace drape::test {
 
-/// The message of the UsageError that a call throws; "(no error)" if it throws none.
+/// Returns the message of the UsageError that a call throws; "(no error)" if there is none.
 template <class Call>
 std::string usage_error(Call&& call) {
   try {

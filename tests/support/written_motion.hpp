@@ -11,7 +11,7 @@
 
 namespace drape::test {
 
-/// A cloth that swings above a ball that moves and over a ground. Frames fall between steps as well as on them.
+/// A cloth that swings above a moving ball and over a ground. Frames fall on steps and between them.
 const std::string moving_scene = R"(
 [cloth]
 mesh = { grid = [4, 3] }
@@ -33,13 +33,13 @@ velocity = [0.5, 0, 0]
 height = -1.25
 )";
 
-/// A file of a motion, and the frames that it should hold.
+/// Result of writing a motion, and the expected frames.
 struct WrittenMotion {
   RunResult result;
   std::vector<Frame> frames;
 };
 
-/// Runs a scene into outputs, and again without any.
+/// Runs a scene with outputs, and again without any.
 inline WrittenMotion write_motion(const Scene& scene, const std::vector<std::string>& outputs,
                                   const RunOptions& other = {}) {
   RunOptions options = other;
@@ -54,7 +54,7 @@ inline WrittenMotion write_motion(const Scene& scene, const std::vector<std::str
   return written;
 }
 
-/// A number at a place of a file's bytes.
+/// Reads a number at an offset of a file's bytes.
 template <class Number>
 Number number_at(const std::string& bytes, std::size_t offset) {
   Number number{};
@@ -63,7 +63,7 @@ Number number_at(const std::string& bytes, std::size_t offset) {
   return number;
 }
 
-/// Vertices from the numbers of a file, x, y, z of each.
+/// Reads vertices from a file's numbers, x, y, z of each.
 template <class Number>
 Vertices vertices_at(const std::string& bytes, std::size_t offset, Eigen::Index count) {
   Vertices vertices(count, 3);

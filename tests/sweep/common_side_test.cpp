@@ -15,12 +15,12 @@ using test::request_of;
 using test::sweep;
 using test::tiny_scene;
 
-/// Cloths that stand in planes at right angles to each other, which are best seen from different sides.
+/// Cloths in perpendicular planes, which are best seen from different sides.
 constexpr const char* turned = "cloth.transform.rotate=[90, 0, 0],[90, 0, 90]";
 
 class CommonSide : public testing::Test {
  protected:
-  /// The film of a run of a sweep into a folder of that name.
+  /// Returns the film of a sweep's run into a folder of that name.
   std::string film(const SweepRequest& request, const std::string& name, std::size_t run) {
     const SweepResults results = sweep(request, {.folder = folder_.path(name), .shard = {}});
     return test::content(run_place(folder_.path(name), results.plan.runs.at(run).key) / "film.gif");

@@ -36,7 +36,7 @@ TEST_F(Plan, TellsEveryProblemOnce) {
   const std::string text = problems({"cloth.stifness=1,2", "integrator.tolerance=1e-3,-1"});
   EXPECT_NE(text.find("did you mean 'stiffness'?"), std::string::npos) << text;
   EXPECT_NE(text.find("--vary integrator.tolerance=-1: "), std::string::npos) << text;
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;  // one for each of two values, and the tolerance
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;  // one for both values, and the tolerance
 }
 
 TEST_F(Plan, RefusesWhatMakesNoSense) {
@@ -65,7 +65,7 @@ TEST_F(Plan, GivesKeysOfWhatIsRunAndOfNothingElse) {
   const std::string first = key(tiny_scene, {}, "a.toml");
   EXPECT_EQ(key("# a comment\n" + tiny_scene + "[check]\nsize = [32, 32]\n", {}, "b.toml"), first);
   EXPECT_EQ(key(tiny_scene + "[sweep]\nvary = { \"cloth.mass\" = [1, 2] }\n", {}, "c.toml"), first);
-  EXPECT_EQ(key(tiny_scene, {"cloth.stiffness=10"}, "d.toml"), first);  // as the file has it
+  EXPECT_EQ(key(tiny_scene, {"cloth.stiffness=10"}, "d.toml"), first);  // same value as in the file
   EXPECT_NE(key(tiny_scene, {"cloth.stiffness=11"}, "e.toml"), first);
   SweepRequest longer = request_of(scene_, {});
   longer.steps = 3;

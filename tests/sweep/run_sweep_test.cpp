@@ -19,7 +19,7 @@ using test::without_times;
 
 class Sweep : public testing::Test {
  protected:
-  /// Twelve runs, of which one is refused.
+  /// Makes a request of twelve runs, one of which is refused.
   [[nodiscard]] SweepRequest twelve() const {
     return request_of(scene_, {"cloth.stiffness=10,20", "time.step=0.01,0.02,0.09", "integrator.method=liu13,verlet"});
   }
@@ -74,7 +74,7 @@ TEST_F(Sweep, GoesOnWhereItEnded) {
   const auto record = [&](std::size_t row) {
     return run_place(folder_.path("out"), first.planned(first.rows[row]).key) / "run.json";
   };
-  // One is lost, one is half written, and a run under way has left its hidden folder.
+  // One is lost, one is half written, and a running one has its hidden folder.
   std::filesystem::remove_all(record(1).parent_path());
   folder_.put(record(2), "{\"format\": 1, \"key\"");
   folder_.put(folder_.path("out/runs/.0123456789abcdef/stats.json"), "{");
@@ -152,7 +152,7 @@ TEST_F(Sweep, OfShardsIsThatOfOneRun) {
   EXPECT_EQ(exit_code(whole), exit_code(merged));
   EXPECT_EQ(whole.headline(), merged.headline());
 
-  // Without one of them its runs are said to be missing.
+  // Without one of the parts its runs are reported as missing.
   const SweepResults less =
       read_results(folder_.path("less"), merge_sweeps({parts[0], parts[2]}, folder_.path("less")));
   EXPECT_GT(less.count(RunOutcome::not_run), 0U);

@@ -17,7 +17,7 @@ namespace drape::test {
 const std::string tiny_scene =
     least_scene + "duration = 0.1\n[integrator]\nmethod = \"liu13\"\n[effects.gravity]\n[video]\nsize = [64, 48]\n";
 
-/// A request of one scene with what varies, as on a command line.
+/// Makes a request of one scene with variations, as on a command line.
 inline SweepRequest request_of(const std::filesystem::path& scene, const std::vector<std::string>& varied) {
   SweepRequest request;
   request.scenes = {scene.string()};
@@ -35,8 +35,8 @@ inline SweepResults sweep(const SweepRequest& request, SweepOptions options) {
   return read_results(options.folder, {plan, options.shard}, unwritten);
 }
 
-/// The lines of runs.csv without what a clock says: columns step_us.…, effect_shares.…, seconds and timed. For files
-/// whose cells have no commas in them.
+/// Returns the lines of runs.csv without measured times: columns step_us.…, effect_shares.…, seconds and timed. Cells
+/// must not contain commas.
 inline std::vector<std::string> without_times(const std::string& csv) {
   std::vector<std::string> lines;
   std::vector<bool> kept;

@@ -1,4 +1,4 @@
-// What a search for near features keeps for the next ones.
+// Data that a search for near features keeps for later searches.
 
 #include "sim/collision/candidates.hpp"
 
@@ -14,8 +14,8 @@
 namespace drape::test {
 namespace {
 
-// What was found before says nothing about what is found: while the cloth goes on its way, slowly or fast, as a whole
-// or not, or one of its vertices alone, and jumps, or is searched for another reach.
+// Earlier searches do not affect the result: for a cloth that moves slowly or fast, rigidly or not, with a single
+// moving vertex, jumps, or another reach.
 TEST(CollisionCandidates, AreThoseOfANewSearchWhateverWasSearchedForBefore) {
   const Cloth cloth = cloth_of(irregular_mesh(7), 1, 1, {3, 4, 5, 6});
   const auto count = static_cast<std::size_t>(cloth.vertex_count());

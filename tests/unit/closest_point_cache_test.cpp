@@ -1,4 +1,4 @@
-// What is remembered of points beside a mesh, and of a cloth's triangles beside a body, changes nothing.
+// Caches for points beside a mesh, and for a cloth's triangles beside a body, do not change results.
 
 #include "sim/collision/closest_point_cache.hpp"
 
@@ -16,7 +16,7 @@
 namespace drape::test {
 namespace {
 
-/// A mesh that gets another place now and then, by less and less.
+/// A mesh that moves repeatedly, by decreasing amounts.
 class Wobbling {
  public:
   explicit Wobbling(const Mesh& mesh)
@@ -71,8 +71,13 @@ TEST(ClosestPointCache, FindsTheVeryFootThatASearchFinds) {
   }
 }
 
+<<<<<<< HEAD:tests/unit/closest_point_cache_test.cpp
 TEST(ClosestPointCache, DoesNotForgetWhatItHasLeftOut) {
   // Around the edges of a box, which are the nearest to one place and, two reaches further, not to the other.
+=======
+TEST(ClosestPointCache, DoesNotForgetWhatItHasLeftOut) {
+  // Around a box's edges, which are closest to one position but, two reaches farther, not to the other.
+>>>>>>> w4tmp:tests/unit/foot_memory_test.cpp
   const double reach = 0.02;
   const Wobbling body(make_box({0.4, 0.4, 0.6}));
   std::mt19937 random(3);
@@ -117,7 +122,7 @@ TEST(ClosestPointCache, KnowsACornerOfMoreTrianglesThanItKeeps) {
   }
 }
 
-/// The pairs of features whose distance is less than the reach when a step begins or ends.
+/// Returns the pairs of features that are within reach at the start or end of a step.
 std::set<FeaturePair> near_pairs(const Cloth& cloth, const MeshTopology& body, const BodyStep& step, double reach) {
   const int first = cloth.vertex_count();
   std::vector<Triangle> triangles = body.triangles;
@@ -147,7 +152,7 @@ std::set<FeaturePair> near_pairs(const Cloth& cloth, const MeshTopology& body, c
   return found;
 }
 
-/// The same whichever way round an edge is.
+/// Returns a pair with ordered edges.
 FeaturePair sorted(FeaturePair pair) {
   auto& v = pair.vertices;
   if (pair.feature == Feature::edge_edge) {
@@ -157,7 +162,7 @@ FeaturePair sorted(FeaturePair pair) {
   return pair;
 }
 
-/// A cloth goes up and down above a body that wobbles.
+/// Moves a cloth up and down above a wobbling body, and expects all near pairs.
 void expect_to_miss_nothing(const Mesh& shape) {
   const double reach = 0.03;
   Mesh mesh = make_grid(4, 4);

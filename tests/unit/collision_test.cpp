@@ -1,4 +1,4 @@
-// The pieces of self-collision: distances, times of impact, candidates, rigid zones.
+// Parts of self-collision: distances, times of impact, candidates, rigid zones.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ FourPoints random_points(Random& random) {
   return {random_point(random), random_point(random), random_point(random), random_point(random)};
 }
 
-/// The least distance of n² points of each feature, found by trying.
+/// Returns the least distance of n² sampled points of each feature.
 double sampled_distance(Feature feature, const FourPoints& p, int n) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= n; ++i) {
@@ -46,7 +46,7 @@ void expect_nearest(Feature feature, const FourPoints& p) {
   for (const Point& q : p) size = std::max(size, (q - p[2]).norm());
   const double distance = std::sqrt(found.squared), sampled = sampled_distance(feature, p, n);
   EXPECT_LE(distance, sampled + 1e-12 * size);
-  EXPECT_GE(distance, sampled - 3 * size / n);  // no sample is further from the nearest point than that
+  EXPECT_GE(distance, sampled - 3 * size / n);  // a sample is at most this far from the closest point
   EXPECT_NEAR(found.difference(p).norm(), distance, 1e-12 * (size + p[0].norm()));
   const auto& w = found.weights;
   const double first = feature == Feature::edge_edge ? w[0] + w[1] : w[0];
@@ -65,9 +65,9 @@ TEST(Nearest, IsNoFurtherThanAnyOtherPoints) {
 TEST(Nearest, KnowsDegenerateAndParallelFeatures) {
   const Point o(0, 0, 0), x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   for (const Feature feature : both) {
-    expect_nearest(feature, {z, o, x, 2 * x});  // a triangle without an area; edges that share a line's plane
-    expect_nearest(feature, {z, o, o, o});      // a triangle or an edge that is a point
-    expect_nearest(feature, {o, x, y, x + y});  // parallel
+    expect_nearest(feature, {z, o, x, 2 * x});              // a degenerate triangle; coplanar edges
+    expect_nearest(feature, {z, o, o, o});                  // a triangle or an edge that is a point
+    expect_nearest(feature, {o, x, y, x + y});              // parallel
     expect_nearest(feature, {o, x, y + 2 * x, y + 3 * x});  // parallel, one behind the other
     expect_nearest(feature, {o, 2 * x, x, 3 * x});          // on one line
     expect_nearest(feature, {o, x, o, y});                  // touching
@@ -76,7 +76,7 @@ TEST(Nearest, KnowsDegenerateAndParallelFeatures) {
   }
 }
 
-// Two edges that cross at a height are that far apart, at whatever angle.
+// Two edges that cross at a height are that far apart, at any angle.
 TEST(Nearest, OfCrossingEdgesIsWhereTheyCross) {
   for (const double height : {0.0, 1e-3, 1.0}) {
     for (const double angle : {1.0, 0.1, 0.05, 1e-2, 1e-4, 1e-6}) {
@@ -98,7 +98,7 @@ FourPoints moved(const FourPoints& p, const FourPoints& move, double t) {
 
 double distance(Feature feature, const FourPoints& p) { return std::sqrt(nearest(feature, p).squared); }
 
-// A vertex one above a triangle that comes down by `way` touches at 1/way. It counts when a tenth of the gap is left.
+// A vertex at height one, descending by `way`, touches a triangle at 1/way. A tenth of the gap left counts as impact.
 TEST(TimeOfImpact, OfAFallingVertexIsKnown) {
   const Point o(0, 0, 0), down(0, 0, -1);
   const FourPoints p{Point(0.2, 0.2, 1), o, Point(1, 0, 0), Point(0, 1, 0)};
@@ -114,7 +114,7 @@ TEST(TimeOfImpact, OfAFallingVertexIsKnown) {
   EXPECT_FALSE(time_of_impact(Feature::vertex_triangle, p, {Point(5, 0, -1), o, o, o})) << "passes beside it";
 }
 
-// However near they are, and however far they go.
+// For any distance and any length of the motion.
 TEST(TimeOfImpact, ThereIsNoneWhereFeaturesSlideAlongEachOther) {
   const Point o(0, 0, 0);
   for (const double height : {1e-3, 1e-5, 1e-7}) {
@@ -134,8 +134,7 @@ TEST(TimeOfImpact, OfCrossingEdgesIsKnown) {
   EXPECT_FALSE(time_of_impact(Feature::edge_edge, p, {o, o, down, down}));
 }
 
-// The cubic of four points that stay in one plane is zero at all times: what has no meaning there has one for
-// distances.
+// The cubic of four coplanar points is always zero, but distances still determine an impact.
 TEST(TimeOfImpact, KnowsMotionsWithinAPlane) {
   const Point o(0, 0, 0), right(4, 0, 0);
   const FourPoints vertex{Point(-1, 0.2, 0), o, Point(1, 0, 0), Point(0, 1, 0)};
@@ -155,7 +154,7 @@ TEST(TimeOfImpact, KnowsDegenerateFeatures) {
   EXPECT_FALSE(time_of_impact(Feature::edge_edge, {o, a, o, a}, {down, o, o, o})) << "touch from the start";
 }
 
-// Between the times it looks at, nothing is missed: at a thousand times of random motions, however far.
+// No impact between tested times is missed: checked at a thousand times of random motions of any size.
 TEST(TimeOfImpact, MissesNothing) {
   Random random;
   int impacts = 0;
@@ -177,7 +176,7 @@ TEST(TimeOfImpact, MissesNothing) {
   EXPECT_GT(impacts, tries(2000) / 20);
 }
 
-// Whatever comes near is among the candidates.
+// All pairs that come near are among the candidates.
 TEST(CollisionCandidates, ContainEveryPairThatComesNear) {
   constexpr double reach = 0.08;
   const Cloth cloth = cloth_of(irregular_mesh(7), 1, 1, {3, 4, 5, 6});

@@ -1,4 +1,4 @@
-// Every energy that a step minimises, against finite differences and its own bounds.
+// Every minimised energy, compared with finite differences and its own bounds.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@
 namespace drape::test {
 namespace {
 
-/// An effect with an energy, on a cloth that feels it.
+/// An effect with an energy, on a cloth that it acts on.
 struct Case {
   std::string name;
   std::function<Mesh()> mesh;
@@ -36,7 +36,7 @@ Mesh bowl() {
 }
 const Bending bending{.rigidity = 0.3};
 
-/// The one energy of an effect.
+/// The single energy of an effect.
 class Term {
  public:
   Term(const Mesh& mesh, const Effect& effect) : cloth_(cloth_of(mesh, 1, 180, {0, 3})), system_(cloth_, 0.02) {
@@ -56,7 +56,7 @@ class Term {
     add_gradient(x, result);
     return result;
   }
-  /// H(x)·v
+  /// Returns H(x)·v.
   Vertices product(const Vertices& x, const Vertices& v) {
     Vertices result = Vertices::Zero(x.rows(), 3);
     for (const auto& hessian : hessians_) {
@@ -65,7 +65,7 @@ class Term {
     }
     return result;
   }
-  /// The same by the blocks, of an energy whose vertices are by themselves.
+  /// Returns H(x)·v by the blocks, for an energy of independent vertices.
   Vertices product_of_blocks(const Vertices& x, const Vertices& v) {
     HessianBlocks blocks{.pairs = {}, .vertices = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(x.rows(), 6)};
     for (const auto& hessian : hessians_) {
@@ -81,7 +81,7 @@ class Term {
     }
     return result;
   }
-  /// vᵀ B v of the constant bound B.
+  /// Returns vᵀ B v of the constant bound B.
   double bounded(const Vertices& v) const {
     StiffnessBound bound{.vertices = Eigen::VectorXd::Zero(v.rows())};
     for (const auto& energy : system_.energies) energy->add_bound(bound);
@@ -108,7 +108,7 @@ class EveryEnergy : public testing::TestWithParam<Case> {
  protected:
   EveryEnergy() : term_(GetParam().mesh(), GetParam().effect) {}
 
-  /// The cloth crumpled by up to so many metres.
+  /// Returns the cloth randomly displaced by up to `by` metres.
   Vertices crumpled(double by, int seed) const {
     return term_.cloth().positions + by * random_vertices(term_.cloth().vertex_count(), seed);
   }
@@ -137,7 +137,7 @@ TEST_P(EveryEnergy, IsNeverNegative) {
   for (const int seed : {1, 2, 3}) EXPECT_GE(term_.value(crumpled(0.5, seed)), 0);
 }
 
-// The Hessian is the slope of the gradient, unless negative eigenvalues were left out: then it is larger.
+// The Hessian is the slope of the gradient, or larger if negative eigenvalues were left out.
 TEST_P(EveryEnergy, HasTheCurvatureItsHessianSaysOrLess) {
   constexpr double e = 1e-6;
   for (const int seed : {1, 2, 3}) {
@@ -150,7 +150,7 @@ TEST_P(EveryEnergy, HasTheCurvatureItsHessianSaysOrLess) {
   }
 }
 
-// What lets Liu13 do without a line search: E(x + d) ≤ E(x) + ∇E·d + ½ dᵀBd, however far d goes.
+// The bound that spares Liu13 a line search: E(x + d) ≤ E(x) + ∇E·d + ½ dᵀBd for any d.
 TEST_P(EveryEnergy, StaysBelowTheParabolaOfItsBound) {
   for (const int seed : {1, 2, 3}) {
     for (const double far : {1e-2, 0.3, 5.0}) {
@@ -166,7 +166,7 @@ TEST_P(EveryEnergy, PullsNowhereAsAWhole) {
   EXPECT_LT(g.colwise().sum().norm(), 1e-12 * g.norm() * std::sqrt(static_cast<double>(g.rows())));
 }
 
-// M/h² p + (springs and energy) p = b, with the assembled matrix and with the products alone.
+// M/h² p + (springs and energy) p = b, with the assembled matrix and with products alone.
 TEST_P(EveryEnergy, EntersBothOfNewtonsLinearSolvers) {
   const System& system = term_.system();
   const StepObjective objective(system, system.step);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double modulus = 300;
 
-/// The elasticity of a cloth in its plane for small strains xx, yy and √2 xy: Σ k l² m mᵀ per area.
+/// Returns the in-plane elasticity of a cloth for small strains xx, yy and √2 xy: Σ k l² m mᵀ per area.
 Eigen::Matrix3d elasticity(const Cloth& cloth) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Spring& s : cloth.springs) {
@@ -27,7 +27,7 @@ Eigen::Matrix3d elasticity(const Cloth& cloth) {
   return sum / (size.x() * size.y());
 }
 
-/// The force per width and strain of a pull at an angle, the sides free.
+/// Returns the force per width and strain of a pull at an angle, with free sides.
 double pulled(const Cloth& cloth, double degrees) {
   const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
   const Eigen::Vector3d m(c * c, s * s, std::numbers::sqrt2 * c * s);
@@ -42,7 +42,7 @@ Cloth grid_cloth(GridPattern pattern, double width) {
 class EvenGrid : public testing::TestWithParam<GridPattern> {};
 INSTANTIATE_TEST_SUITE_P(, EvenGrid, testing::Values(GridPattern::alternating, GridPattern::x));
 
-// Isotropic with E and 1/3 is 9/8 E along a held strain, 3/8 E beside it, and 3/4 E against √2 xy.
+// Isotropic with E and 1/3: 9/8 E along a held strain, 3/8 E across it, and 3/4 E for √2 xy.
 TEST_P(EvenGrid, IsTheSameInAllDirections) {
   for (const double width : {1.0, 1.6, 0.6}) {
     Cloth cloth = grid_cloth(GetParam(), width);

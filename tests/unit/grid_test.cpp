@@ -18,7 +18,7 @@ INSTANTIATE_TEST_SUITE_P(, PatternedGrid,
                          testing::Values(GridPattern::diagonal, GridPattern::alternating, GridPattern::x,
                                          GridPattern::equilateral));
 
-// Counterclockwise triangles that are a rectangle's area together, and whose edges have two sides except on its border.
+// Counterclockwise triangles with the rectangle's total area, and two triangles at every edge except on its border.
 TEST_P(PatternedGrid, TilesItsRectangle) {
   for (const auto [columns, rows] : {std::array{1, 1}, std::array{5, 4}, std::array{4, 7}}) {
     const Mesh mesh =

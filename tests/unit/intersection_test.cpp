@@ -1,4 +1,4 @@
-// Whether a mesh goes through itself: what is flat does not, however it lies in space, and what does is found.
+// Detection of a mesh that passes through itself: a flat one never does, and every real intersection is found.
 
 #include "sim/collision/intersection.hpp"
 
@@ -22,7 +22,7 @@ Eigen::Matrix3d turned(double x, double y, double z) {
       .toRotationMatrix();
 }
 
-/// Turned, as large and as far away as it happens to be.
+/// Rotates a mesh randomly and gives it a random size and position.
 Mesh placed(Mesh mesh, Random& random) {
   const double size = std::pow(10, random.between(-6, 3));
   const Eigen::Matrix3d turn = turned(random.between(-180, 180), random.between(-180, 180), random.between(-180, 180));
@@ -31,7 +31,7 @@ Mesh placed(Mesh mesh, Random& random) {
   return mesh;
 }
 
-/// A second mesh beside the first.
+/// Joins a second mesh with the first.
 Mesh joined(Mesh mesh, const Mesh& other) {
   const auto count = static_cast<int>(mesh.positions.rows());
   mesh.positions.conservativeResize(count + other.positions.rows(), Eigen::NoChange);
@@ -42,7 +42,7 @@ Mesh joined(Mesh mesh, const Mesh& other) {
 
 bool goes_through_itself(const Mesh& mesh) { return find_intersection(mesh.triangles, mesh.positions).has_value(); }
 
-/// A flat sheet, and a spike whose tip is so far behind it, at (x, y).
+/// Makes a flat sheet, and a spike whose tip is `depth` behind it, at (x, y).
 Mesh pierced_sheet(double x, double y, double depth) {
   Mesh spike;
   spike.positions.resize(3, 3);

@@ -13,7 +13,7 @@
 #include "tests/support/random.hpp"
 
 namespace drape {
-// So that a failing test prints the version's name.
+// Lets a failing test print the version's name.
 inline void PrintTo(const Kernels* version, std::ostream* out) { *out << version->name; }
 }  // namespace drape
 
@@ -34,7 +34,7 @@ bool same(const std::vector<T>& a, const std::vector<T>& b) {
 }
 inline bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-/// A test of every version of the kernels, beside the one that runs everywhere.
+/// A test of every version of the kernels against the version that runs everywhere.
 class KernelsVersion : public testing::TestWithParam<const Kernels*> {
  protected:
   void SetUp() override {

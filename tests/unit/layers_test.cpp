@@ -10,7 +10,7 @@
 
 #include "tests/support/files.hpp"
 
-// ARCHITECTURE.md's table of folders is a promise: which may include which. It is read, and held against every include.
+// ARCHITECTURE.md's table of folders says which folder may include which. Every include is checked against it.
 
 namespace drape::layers {
 namespace {
@@ -20,7 +20,7 @@ using Layers = std::map<std::string, std::set<std::string>>;  // a folder, and t
 
 const fs::path root = DRAPE_SOURCE_DIR;
 
-/// The names in a cell of the table that are folders: `sim/`.
+/// Returns the folders in a cell of the table: `sim/`.
 std::set<std::string> folders_in(const std::string& cell) {
   static const std::regex folder("`([a-z/]+)/`");
   std::set<std::string> names;
@@ -43,7 +43,7 @@ Layers table() {
   return layers;
 }
 
-/// The folder of the table that a file is in: the longest that its path begins with; none: "".
+/// Returns the table's folder of a file: the longest prefix of its path; none: "".
 std::string layer_of(const std::string& file, const Layers& layers) {
   std::string longest;
   for (const auto& [folder, uses] : layers) {
@@ -60,7 +60,7 @@ std::vector<fs::path> sources_in(const fs::path& folder) {
   return files;
 }
 
-/// Whether a folder can be reached from another over what folders may include.
+/// Returns true if one folder depends on another, directly or indirectly.
 bool reaches(const Layers& layers, const std::string& from, const std::string& to, std::set<std::string>& seen) {
   if (!seen.insert(from).second) return false;
   const auto uses = layers.find(from);
@@ -87,7 +87,7 @@ TEST(Layers, HoldInEveryInclude) {
   for (const auto& [folder, uses] : layers) {
     for (const fs::path& file : sources_in(root / folder)) {
       const std::string name = fs::relative(file, root).string();
-      if (layer_of(name, layers) != folder) continue;  // of a folder within this one, which has a row of its own
+      if (layer_of(name, layers) != folder) continue;  // belongs to a subfolder with its own row
       const std::string text = test::content(file);
       for (std::sregex_iterator match(text.begin(), text.end(), include), end; match != end; ++match, ++found) {
         const std::string used = layer_of((*match)[1], layers);

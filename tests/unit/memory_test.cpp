@@ -29,7 +29,7 @@ TEST(Memory, CountsWhatTheProcessHolds) {
   EXPECT_LE(memory_left(), before - 60e6) << held.back();
 }
 
-/// A folder that looks like the root of a machine as far as memory goes.
+/// A folder that resembles a machine's root, as far as memory is concerned.
 class GroupMemory : public InScratchFolder {
  protected:
   void file(const std::string& name, const std::string& text) const { put(path(name), text); }
@@ -44,7 +44,7 @@ TEST_F(GroupMemory, OfVersion2IsTheLeastOnTheWayToTheRoot) {
   file("sys/fs/cgroup/user/memory.current", "30000000\n");
   EXPECT_EQ(memory_left(folder_), 20e6);
   file("sys/fs/cgroup/user/memory.stat", "anon 22000000\ninactive_file 5000000\nactive_file 3000000\n");
-  EXPECT_EQ(memory_left(folder_), 28e6);  // the file cache is given up
+  EXPECT_EQ(memory_left(folder_), 28e6);  // the file cache is reclaimable
   file("sys/fs/cgroup/user/job/memory.max", "4000000\n");
   EXPECT_EQ(memory_left(folder_), 3e6);
 }

@@ -85,7 +85,7 @@ TEST(UniqueEdges, GivesNoEdgeFromAVertexToItself) {
   EXPECT_TRUE(unique_edges({}).empty());
 }
 
-/// The homework's own meshes are not part of the project; see DRAPE_REFERENCE_MESHES.
+/// Returns the folder of the homework's own meshes, which are not part of the project; see DRAPE_REFERENCE_MESHES.
 std::filesystem::path reference_meshes() {
   const char* folder = std::getenv("DRAPE_REFERENCE_MESHES");
   return folder != nullptr ? folder : DRAPE_SOURCE_DIR "/../shared/reference/meshes";

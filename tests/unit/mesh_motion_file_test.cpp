@@ -50,7 +50,7 @@ TEST(MeshMotionFile, MovesByTheSamplesOfItsPoints) {
   EXPECT_EQ(at(motion, 9).row(2), RowVector3d(0, 1, 8));
 }
 
-// A parent that turns by 90° within 8 time codes: without samples in between, its points would cut the corner by 30 %.
+// A parent turns by 90° within 8 time codes: without intermediate samples, points would cut the corner by 30 %.
 TEST(MeshMotionFile, TurnsWithItsParentsWithoutShrinking) {
   const MeshMotion motion = parse(body_header +
                                   "def Xform \"turntable\" {\nfloat xformOp:rotateX.timeSamples = { 0: 0, 8: 90 }\n"
@@ -61,7 +61,7 @@ TEST(MeshMotionFile, TurnsWithItsParentsWithoutShrinking) {
   for (const double time : {0.1, 0.35, 0.4, 0.79}) EXPECT_NEAR(at(motion, time).row(2).norm(), 4, 4 * 0.005) << time;
 }
 
-/// An upper arm and a forearm, bound along z, whose elbow at z = 2 turns about x by 90° from time code 0 to 8.
+/// Returns an upper arm and a forearm along z, whose elbow at z = 2 turns about x by 90° from time code 0 to 8.
 std::string arm(const std::string& skin, const std::string& animation, const std::string& of_skeleton = "") {
   return body_header + "def SkelRoot \"Arm\" {\ndef Skeleton \"Skel\" {\n" + of_skeleton +
          "uniform token[] joints = [\"Shoulder\", \"Shoulder/Elbow\"]\nuniform matrix4d[] bindTransforms = [\n"
@@ -79,8 +79,8 @@ const std::string arm_skin =
     "int[] primvars:skel:jointIndices = [0, 1, 0, 1, 0, 1] ( interpolation = \"vertex\" elementSize = 2 )\n"
     "float[] primvars:skel:jointWeights = [1, 0, 0.5, 0.5, 0, 1] ( interpolation = \"vertex\" elementSize = 2 )\n";
 
-// p' = Σ wⱼ Sⱼ Bⱼ⁻¹ p: the hand, 2 behind the elbow, goes to (0, −2, 2); what both hold half-way between there and
-// where the upper arm has it, which for the point in the elbow's axis is where it was.
+// p' = Σ wⱼ Sⱼ Bⱼ⁻¹ p: the hand, 2 behind the elbow, moves to (0, −2, 2). A point shared by both bones moves half-way
+// between both results, and stays in place if it is on the elbow's axis.
 TEST(MeshMotionFile, BendsASkinnedMeshAsTheFormulaSays) {
   const MeshMotion motion = parse(arm(arm_skin, elbow_motion));
   EXPECT_EQ(motion.times.front(), 0);
@@ -99,7 +99,7 @@ TEST(MeshMotionFile, BendsASkinnedMeshAsTheFormulaSays) {
   EXPECT_TRUE(at(parse(arm(shared, elbow_motion)), 0.8).row(2).isApprox(RowVector3d(0, -1, 3))) << "weights of any sum";
 }
 
-// UsdSkel binds in the skeleton's space: what moves the skeleton moves the mesh, whose own transform does not.
+// UsdSkel binds in the skeleton's space: transforms of the skeleton move the mesh, and the mesh's own do not.
 TEST(MeshMotionFile, CarriesTheSkinWithTheSkeleton) {
   const std::string raised =
       "double3 xformOp:translate.timeSamples = { 8: (0, 0, 10) }\nuniform token[] xformOpOrder = "
@@ -112,7 +112,7 @@ TEST(MeshMotionFile, CarriesTheSkinWithTheSkeleton) {
   EXPECT_TRUE(bent.row(2).isApprox(RowVector3d(3, -2, 12)));
 }
 
-// A mesh may count in a list of its own; joints that nothing animates rest, and what no joint holds stays.
+// A mesh may have its own list of joints; unanimated joints rest, and points without a joint stay.
 TEST(MeshMotionFile, TakesTheMeshsOwnListOfJoints) {
   const std::string own =
       "uniform token[] skel:joints = [\"Shoulder/Elbow\"]\n"
@@ -146,7 +146,7 @@ TEST(MeshMotionFile, SaysWhatIsWrongWithASkin) {
       "body.usda:9:4: points: expected 3 as in the first sample, found 0: a mesh that moves keeps its points");
 }
 
-// What a prim refers to keeps its own skeleton, whose paths are those of its file, and its own pace.
+// A referenced prim keeps its own skeleton, with the paths of its file, and its own frame rate.
 TEST(MeshMotionFile, FollowsReferencesWithTheirSkeletonsAndTimes) {
   const test::ScratchFolder folder;
   folder.put(folder.path() / "arm.usda", arm(arm_skin, elbow_motion));
@@ -190,7 +190,7 @@ TEST(MeshMotionFile, PlaysASequenceOfObjFiles) {
   EXPECT_EQ(
       error("body{frame:04}.obj"),
       "body0011.obj: expected the 3 vertices and 1 triangles of the first frame, found 3 vertices and 2 triangles");
-  // A file that is no sequence has no frames to be so many in a second.
+  // A single file has no frame rate.
   const auto with_fps =
       usage_error([&] { read_mesh_motion(folder.path() / "body0012.obj", {.frames_per_second = 2}); });
   EXPECT_NE(with_fps.find("body0012.obj: a single OBJ does not move: omit 'fps'"), std::string::npos) << with_fps;
@@ -214,7 +214,7 @@ TEST(MeshMotionFile, MovesARealArm) {
   const MeshMotion motion = read_mesh_motion(file);
   EXPECT_EQ(motion.times.size(), 10U);
   EXPECT_TRUE(at(motion, 0).row(0).isApprox(RowVector3d(0.005, -0.04, -0.005)));
-  // (0.5, −0.5, 4) is (0.5, −0.5, 2) beside the elbow, turned (0.5, −2, −0.5), and (0.5, −2, 1.5) again.
+  // (0.5, −0.5, 4) is (0.5, −0.5, 2) relative to the elbow, turned (0.5, −2, −0.5), and finally (0.5, −2, 1.5).
   EXPECT_TRUE(at(motion, 1).row(0).isApprox(RowVector3d(0.005, -0.015, -0.02), 1e-4));
   const MeshMotion bent = read_mesh_motion(with_cloth, {.prim = "/root/Model"});
   EXPECT_EQ(bent.mesh.positions.rows(), 12);

@@ -1,4 +1,4 @@
-// The method of settings that name none, and steps that are cut into substeps.
+// The default method, and steps divided into substeps.
 
 #include "sim/schemes/method_choice.hpp"
 
@@ -71,10 +71,10 @@ TEST(MethodChoice, IsTheSameForAnAccuracy) {
   settings.accuracy = 1e-3;
   const SimulationSettings named = with_method(settings);
   EXPECT_EQ(named.integrator.method, Method::verlet);
-  EXPECT_FALSE(named.integrator.substeps.has_value());  // which are found in every step
+  EXPECT_FALSE(named.integrator.substeps.has_value());  // determined in every step
 }
 
-/// Substeps of a power of two are steps to the bit, since times then are the same numbers.
+/// A power of two of substeps gives the bits of short steps, because all times are then equal.
 TEST(Substeps, AreStepsToTheBit) {
   for (const Method method : {Method::verlet, Method::semi_implicit}) {
     SimulationSettings whole = homework(method, 1.0 / 64, 180);

@@ -71,7 +71,7 @@ TEST_F(LinksInFolder, DoNotLeadOutOfIt) {
     EXPECT_THROW(require_inside(folder_ / place, folder_ / "in"), UsageError) << place;
   }
   fs::remove(folder_ / "in/runs/c");
-  fs::create_symlink("../../victim/new", folder_ / "in/runs/c");  // what is written there would appear elsewhere
+  fs::create_symlink("../../victim/new", folder_ / "in/runs/c");  // writing there would create a file elsewhere
   EXPECT_THROW(require_links_inside(folder_ / "in"), UsageError);
   EXPECT_THROW(require_inside(folder_ / "in/runs/c", folder_ / "in"), UsageError);
 }

@@ -73,8 +73,7 @@ TEST(ObjReader, TakesAnyLineEnding) {
   }
 }
 
-// What tools that sew write: quads beside pentagons, numbers that count back, lines of their own, and a seam of which
-// both sides are there.
+// Output of sewing programs: quads and pentagons, negative indices, unknown lines, and a seam with both sides present.
 TEST(ObjReader, ReadsAGarmentOfOtherTools) {
   const Mesh mesh = parse(
       "v 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nvt 0 0\r\nvt 1 0\r\nvt 1 1\r\nvt 0 1\r\nf -4/-4 -3/-3 -2/-2 "
@@ -132,7 +131,7 @@ TEST(ObjReader, SaysThatThereIsNoFaceOrNoVertex) {
             "cloth.obj: there is no vertex ('v x y z') in the file");
 }
 
-// A cut file is another valid one or gets a message; reading it never crashes or hangs.
+// A truncated file is valid or gets a message; reading never crashes or hangs.
 TEST(ObjReader, SurvivesAFileCutAnywhere) {
   const std::string text(SourceText::read(DRAPE_SOURCE_DIR "/tests/data/polygons.obj").text());
   for (std::size_t size = 0; size < text.size(); ++size) {

@@ -170,7 +170,7 @@ TEST_F(AtomicFile, RemovesWhatKilledProcessesLeftOfIt) {
   leave("left");
   EXPECT_EQ(file_count(), 3u);
   PartialFile held(path("x.txt"));
-  EXPECT_EQ(file_count(), 2u);  // what is held, and what is left of y.txt
+  EXPECT_EQ(file_count(), 2u);  // the held file, and the leftover of y.txt
   {
     const PartialFile second(path("x.txt"));
     EXPECT_TRUE(fs::exists(held.temporary()));

@@ -1,4 +1,4 @@
-// Pins that turn, and pins that hold on to a mesh.
+// Turning pins, and pins attached to a mesh.
 
 #include "sim/pin_motion.hpp"
 
@@ -21,7 +21,7 @@ Vertices rows(std::initializer_list<Vector3d> points) {
   return x;
 }
 
-/// The velocity at a time is where the quotient of differences before it goes, also of a motion with corners.
+/// Expects the velocity to be the limit of backward differences, also for motions with corners.
 void expect_consistent(const PinMotion& motion, double from, double to) {
   const auto count = static_cast<Eigen::Index>(motion.vertices.size());
   Vertices before(count, 3), now(count, 3), v(count, 3), between(count, 3);
@@ -45,7 +45,7 @@ TEST(PinMotion, TurnsAboutTheMiddleWhichMoves) {
   Vertices x(2, 3);
   motion.place(1, x);
   EXPECT_TRUE(x.isApprox(rows({{1, 2, 3}, {1, 0, 3}}), 1e-14)) << x;
-  // About the fixed x axis, then y, then z, as [cloth.transform] has it.
+  // About the fixed x axis, then y, then z, as in [cloth.transform].
   motion.turn = Keyframes({{0, {90, 0, 90}}}, Interpolation::linear);
   motion.middle = {0, 1, 0};
   motion.base = rows({{0, 2, 0}, {1, 1, 0}});
@@ -63,7 +63,7 @@ TEST(PinMotion, TurnsWithTheVelocityOfItsPlaces) {
   }
 }
 
-/// A square of two triangles that lies still, then turns by 90° about y and rises.
+/// Makes a square of two triangles that lies still, then turns by 90° about y and rises.
 MeshMotion flap() {
   MeshMotion motion{.mesh = make_grid(1, 1)};
   motion.times = {0, 1, 2};

@@ -1,4 +1,4 @@
-// Where a point is beside a mesh, and the tree that finds it.
+// Closest points on a mesh, and the tree that finds them.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ PlacedMesh placed(const Mesh& mesh) {
   return {std::make_shared<MeshTopology>(mesh.triangles, static_cast<int>(mesh.positions.rows())), mesh.positions};
 }
 
-/// The signed distance from a box around the origin.
+/// Returns the signed distance from a box around the origin.
 double box_distance(const Point& half, const Point& p) {
   const Point d = p.cwiseAbs() - half;
   return d.cwiseMax(0).norm() + std::min(d.maxCoeff(), 0.0);
@@ -39,7 +39,7 @@ TEST(PlacedMesh, KnowsTheDistanceFromABoxAndTheWayOutOfIt) {
     ASSERT_TRUE(foot);
     EXPECT_NEAR(foot->distance, expected, 1e-12);
     EXPECT_NEAR(foot->normal.norm(), 1, 1e-12);
-    // A little further along the normal it is as much further away.
+    // A small step along the normal increases the distance by its length.
     EXPECT_NEAR(box_distance(half, p + 1e-6 * foot->normal), expected + 1e-6, 1e-9);
     const auto near = box.find(p, 0.1);
     EXPECT_TRUE(near.has_value() || expected > 0.1);
@@ -52,7 +52,7 @@ TEST(PlacedMesh, KnowsTheDistanceFromABoxAndTheWayOutOfIt) {
 TEST(PlacedMesh, IsTheSameWhicheverTriangleIsLookedAtFirst) {
   const PlacedMesh box = placed(make_box({1, 1, 1}));
   std::mt19937 random(2);
-  std::uniform_int_distribution<int> eighths(-8, 8);  // many of them are equally near to several triangles
+  std::uniform_int_distribution<int> eighths(-8, 8);  // many points have several closest triangles
   for (int k = 0; k < 300; ++k) {
     const Point p(eighths(random) / 8.0, eighths(random) / 8.0, eighths(random) / 8.0);
     const auto plain = box.find(p, anywhere);
@@ -66,7 +66,7 @@ TEST(PlacedMesh, IsTheSameWhicheverTriangleIsLookedAtFirst) {
 }
 
 TEST(PlacedMesh, IsNotAroundWhatIsBesideAFold) {
-  // A bar along y, whose section comes to a point at x = 0 where its two sides have gone through each other.
+  // A bar along y, whose section ends in a point at x = 0, where its two sides have crossed.
   const std::array<std::array<double, 2>, 5> section{{{0, 0}, {1, 0.05}, {2, -1}, {2, 1}, {1, -0.05}}};  // x, z
   Mesh bar;
   bar.positions.resize(10, 3);

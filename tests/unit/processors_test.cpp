@@ -10,7 +10,7 @@
 namespace drape::test {
 namespace {
 
-/// A folder that looks like the root of a machine as far as processors go.
+/// A folder that resembles a machine's root, as far as processors are concerned.
 class Processors : public InScratchFolder {
  protected:
   void file(const std::string& name, const std::string& text) const { put(path(name), text); }
@@ -34,7 +34,7 @@ TEST_F(Processors, AreNoMoreThanAGroupHasTimeOf) {
   file("proc/self/cgroup", "0::/user/job\n");
   file("sys/fs/cgroup/user/job/cpu.max", "max 100000\n");
   const int all = processors_left(folder_);
-  file("sys/fs/cgroup/user/cpu.max", "50000 100000\n");  // half of one
+  file("sys/fs/cgroup/user/cpu.max", "50000 100000\n");  // half a processor
   EXPECT_EQ(processors_left(folder_), 1);
   file("sys/fs/cgroup/user/cpu.max", "100000000 100000\n");
   EXPECT_EQ(processors_left(folder_), all);

@@ -19,7 +19,7 @@ namespace {
 
 class ReadFile : public InScratchFolder {
  protected:
-  /// What is wrong with a file of the folder, behind its name.
+  /// Returns the error of a file in the folder, after its name.
   [[nodiscard]] std::string problem(const std::string& name, std::size_t limit = 1000) const {
     const std::string text = usage_error([&] { read_file(path() / name, limit); });
     const std::string start = (path() / name).string() + ": ";
@@ -39,7 +39,7 @@ TEST_F(ReadFile, SaysWhyItCannot) {
   EXPECT_EQ(problem("none"), "no such file");
   EXPECT_EQ(problem("a/b"), "no such file");
   EXPECT_EQ(problem("."), "this is a folder, not a file");
-  const std::filesystem::path zero = path() / std::string("a\0b", 3);  // more than what is before the zero
+  const std::filesystem::path zero = path() / std::string("a\0b", 3);  // the name does not end at the zero
   EXPECT_EQ(usage_error([&] { read_file(zero, 1000); }), path("a\\x00b") + ": no such file");
   EXPECT_EQ(usage_error([] { read_file("/dev/zero", 1000); }), "/dev/zero: this is a device or socket, not a file");
   if (geteuid() == 0) GTEST_SKIP() << "root may read everything";

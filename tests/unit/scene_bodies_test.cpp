@@ -1,4 +1,4 @@
-// What scenes say of bodies, and what they are told about a cloth that starts inside of something.
+// Bodies in scenes, and warnings about a cloth that starts inside of an obstacle.
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ TEST(SceneBodies, MoveStraightOnKeyframesOrTurnWithTheirOrbit) {
   EXPECT_EQ(corner("velocity = [0, 2, 0]", 3), RowVector3d(1, 7, 1));
   EXPECT_EQ(corner("keyframes = [{ time = 0, center = [0, 0, 0] }, { time = 2, center = [4, 0, 0] }]", 1),
             RowVector3d(3, 1, 1));
-  // A quarter of a turn about z, with the body and around its own centre: (1, 1) becomes (−1, 1).
+  // A quarter turn about z, around its own centre: (1, 1) becomes (−1, 1).
   EXPECT_LT((corner("orbit_period = 4", 1) - RowVector3d(-1, 1, 1)).norm(), 1e-14);
   EXPECT_LT((corner("center = [3, 0, 0]\norbit_period = 4", 1) - RowVector3d(-1, 4, 1)).norm(), 1e-14);
   EXPECT_LT((corner("rotate = [0, 0, 90]", 0) - RowVector3d(-1, 1, 1)).norm(), 1e-14);
@@ -56,12 +56,12 @@ TEST(SceneBodies, TurnOnKeyframes) {
   const auto corner = [&](const std::string& lines, double time) {
     return RowVector3d(shape_at(folder.load(with_body("box = [2, 2, 2]\n" + lines)), time).positions.row(7));
   };
-  // From 0 at 0 s on, as pins do: a quarter of a turn about z in one second, and then it stays.
+  // From rotation 0 at 0 s, as for pins: a quarter turn about z in one second, then it stays.
   const std::string quarter = "rotations = [{ time = 1, rotate = [0, 0, 90] }]\n";
   EXPECT_EQ(corner(quarter, 0), RowVector3d(1, 1, 1));
   EXPECT_LT((corner(quarter, 0.5) - RowVector3d(0, std::sqrt(2.0), 1)).norm(), 1e-14);
   EXPECT_LT((corner(quarter, 3) - RowVector3d(-1, 1, 1)).norm(), 1e-14);
-  // Around its place, wherever that is, and on top of how it is turned: about the fixed x axis first, then z.
+  // Around its own centre, on top of its initial rotation: first about the fixed x axis, then z.
   const std::string both = "rotate = [90, 0, 0]\n" + quarter + "velocity = [0, 0, 5]";
   EXPECT_LT((corner(both, 1) - RowVector3d(1, 1, 6)).norm(), 1e-14);
   EXPECT_LT((corner("rotations = [{ time = 0, rotate = [0, 0, 90] }]", 0) - RowVector3d(-1, 1, 1)).norm(), 1e-14);
@@ -124,7 +124,7 @@ TEST(StartOverlap, CountsVerticesInsideAndHowDeepTheyAre) {
   EXPECT_EQ(box[0].vertices, 3);
   EXPECT_NEAR(box[0].depth, 0.2, 1e-12);
   EXPECT_NE(describe(box[0]).find("3 vertices of the cloth start inside the body"), std::string::npos);
-  // The layer in which something pushes is not its inside, nor is its surface.
+  // The contact layer and the surface are not inside.
   EXPECT_TRUE(of("[effects.ground]\nheight = 0\n[[effects.body]]\nbox = [1, 1, 1]\ncenter = [0, 0, 0.5]\n").empty());
 }
 

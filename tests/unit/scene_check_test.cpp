@@ -42,7 +42,7 @@ TEST(SceneCheck, RefusesToIgnoreWhatThereIsNot) {
   EXPECT_EQ(folder.problems(check + "ignore = [[63, 47, 99, 99]]\n"), "(no error)");
   EXPECT_EQ(folder.problems(check + "ignore_frames = [0, 99999]\n"),
             "scene.toml:9:17: ignore_frames: the film ends with frame 5, found 99999");
-  // What an override has made shorter or smaller is meant.
+  // Entries for parts that an override has removed are accepted.
   EXPECT_EQ(folder.problems(check + "ignore_frames = [5]\n", {"time.duration=0.1"}), "(no error)");
   EXPECT_EQ(folder.problems(check + "ignore = [[60, 0, 4, 4]]\n", {"check.size=[32, 24]"}), "(no error)");
 }

@@ -14,7 +14,7 @@ using test::SceneFolder;
 
 constexpr double tiny = 1e-15;
 
-/// A cloth of 2×2 cells, with more lines in [cloth] from line 4 on.
+/// Returns a cloth of 2×2 cells, with more lines in [cloth] from line 4 on.
 std::string cloth(const std::string& lines) {
   return "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 10\n" + lines + "\n";
 }
@@ -70,7 +70,7 @@ TEST(SceneMesh, IsChosenByItsNameAndTurnedByItsUpAxis) {
   EXPECT_EQ(turned.simulation.cloth.positions.row(2), Eigen::RowVector3d(0, -2, 1));
 }
 
-// What may be a mistake, and may be meant: it is simulated all the same.
+// Possible mistakes only cause warnings: the scene is simulated.
 TEST(SceneMesh, DoubtsSizesAndUpAxesThatAreSeldomMeant) {
   const SceneFolder folder;
   const auto warnings = [&](const std::string& mesh, const std::string& more = "") {
@@ -120,7 +120,7 @@ TEST(SceneMesh, SaysItsPiecesItsExtentAndItsEdges) {
   EXPECT_EQ(shape_of(scene.simulation.cloth).text(), "2 pieces of 9 × 9 × 9 m together, edges of 1 to 5 m");
   const Scene grid = folder.load("[cloth]\nmesh = { grid = [4, 4] }\nstiffness = 7\n");
   EXPECT_EQ(shape_of(grid.simulation.cloth).text(), "1 piece of 2 × 2 × 0 m, edges of 0.5 to 0.707 m");
-  // What rounding leaves of a direction in which a turned cloth is flat is no length.
+  // Rounding errors in the flat direction of a rotated cloth do not count as a length.
   const Scene turned =
       folder.load("[cloth]\nmesh = { grid = [4, 4] }\nstiffness = 7\n[cloth.transform]\nrotate = [90, 0, 0]\n");
   EXPECT_EQ(shape_of(turned.simulation.cloth).text(), "1 piece of 2 × 0 × 2 m, edges of 0.5 to 0.707 m");

@@ -1,4 +1,4 @@
-// What the tables of effects can say that takes more than a number.
+// Structured values in the tables of effects.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using test::least_scene;
 using test::SceneFolder;
 
-/// The effect's table follows the five lines of the least scene, from line 7 on.
+/// Returns the least scene's five lines, followed by the effect's table from line 7 on.
 std::string with(const std::string& effect, const std::string& lines) {
   return least_scene + "[effects." + effect + "]\n" + lines + "\n";
 }
@@ -84,7 +84,7 @@ TEST(SceneEffects, PinsAreMovedInTheFormsInWhichTheyArePinned) {
   const std::string pinned =
       "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 10\npins = [{ box = [[-1, -1, 0], [1, -1, 0]] }]\n"
       "[cloth.transform]\nscale = 3\ntranslate = [0, 0, 7]\n[effects.moving_pins]\n";
-  // Boxes and corners are those of the mesh before it is placed, as in [cloth].
+  // Boxes and corners refer to the mesh before its transform, as in [cloth].
   const Scene scene =
       folder.load(pinned + "pins = [{ box = [[-1, -1, 0], [0.5, -1, 0]] }, \"corner:x+y-\"]\nrelease = 1");
   EXPECT_EQ(make_system(scene.simulation).pin_releases.at(0).vertices, (std::vector{0, 1, 2}));
@@ -136,8 +136,8 @@ TEST(SceneEffects, TheAnimatedSpherePlaysAsItWasAuthored) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << ": set DRAPE_REFERENCE_MESHES to its folder";
   const SceneFolder folder;
   const Scene scene = folder.load(with("sphere", "track = '" + std::filesystem::absolute(file).string() + "'"));
-  // Its samples as the file has them: time codes 1 to 250 at 24 per second, of which the first is 0 s. The centre is
-  // that of the mesh's points, which are in single precision.
+  // Samples as in the file: time codes 1 to 250 at 24 per second, the first at 0 s. The centre is that of the mesh's
+  // points, which are in single precision.
   const std::pair<double, double> samples[] = {
       {0, 0.0008330001146532595}, {1 / 24.0, 0.0033040004782378674}, {45 / 24.0, 1.09608793258667}};
   for (const auto& [time, y] : samples) EXPECT_LT((sphere_at(scene, time).center - Vector3d(0, y, 0)).norm(), 1e-6);

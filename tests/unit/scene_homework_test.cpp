@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Animation{"5", Method::liu13, 0.02, 180, 417, false, {"gravity", "sphere"}}),
     [](const auto& animation) { return "No" + animation.param.file; });
 
-/// What the effects of a scene do to a cloth moving at 1 m/s.
+/// Effects of a scene on a cloth that moves at 1 m/s.
 struct Acting {
   Scene scene;
   System system{scene.simulation.cloth, scene.simulation.step};

@@ -1,4 +1,4 @@
-// How what is wrong with a scene is told: in which order, with which places, and of which files.
+// Messages about a scene's errors: their order, places and files.
 
 #include <gtest/gtest.h>
 
@@ -82,7 +82,7 @@ TEST(SceneMessages, ComparedFramesBeyondTheFilmAreNamed) {
   EXPECT_EQ(folder.problems(scene + ", 99]\n"), "scene.toml:10:18: frames: the film ends with frame 10, found 99");
   EXPECT_EQ(folder.problems(scene + "]\n", {"check.frames=[11]"}),
             "--set check.frames=[11]: frames: the film ends with frame 10, found 11");
-  // A film that is made shorter for once has nothing to do with what is compared.
+  // A film shortened by an override does not affect compared frames.
   EXPECT_EQ(folder.problems(scene + "]\n", {"time.duration=0.1"}), "(no error)");
   EXPECT_EQ(folder.problems(scene + "]\n", {"video.fps=5"}), "(no error)");
   EXPECT_EQ(folder.problems(scene + "]\n", {"time.duration=0.1", "check.frames=[0, 9]"}),

@@ -16,7 +16,7 @@ using test::SceneFolder;
 const std::string one_sphere = least_scene + "[effects.sphere]\ncenter = [0, 0, 1]\nradius = 1\n";
 const std::string item = "[[effects.sphere]]\ncenter = [0, 0, 1]\nradius = 1\n";
 
-/// The spheres' radii, as something outside sees them.
+/// Returns the spheres' radii as installed in a system.
 std::vector<double> radii(const Scene& scene) {
   System system{scene.simulation.cloth, scene.simulation.step};
   for (const Effect& effect : scene.simulation.effects) effect.install(system);

@@ -1,4 +1,4 @@
-// A draft has a coarser grid, where the scene means the same on it.
+// A draft has a coarser grid if the scene keeps its meaning on it.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 class DraftGrid : public testing::Test {
  protected:
-  /// Vertices of the cloth of a scene in draft quality.
+  /// Returns the number of vertices of a scene's cloth in draft quality.
   [[nodiscard]] Eigen::Index vertices(const std::string& mesh, const std::string& pins = "",
                                       std::vector<std::string> overrides = {}) const {
     overrides.insert(overrides.begin(), "look.quality=draft");

@@ -1,4 +1,4 @@
-// Numbers whose products overflow are refused where a place or a velocity is meant.
+// Numbers whose products overflow are refused as positions or velocities.
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* page_file = DRAPE_SOURCE_DIR "/docs/scene-format.md";
 
-/// The part of the page between the markers of this name is what the program says.
+/// Expects the page's part between the markers of this name to equal the program's text.
 void expect_page(const std::string& name, const std::string& expected) {
   const std::string text = test::content(page_file);
   const std::string begin = "<!-- " + name + ": begin -->\n", end = "<!-- " + name + ": end -->";
@@ -33,7 +33,7 @@ void expect_page(const std::string& name, const std::string& expected) {
 
 TEST(SceneReference, ThePageHasTheProgramsOwnDescriptionOfItsKeys) { expect_page("reference", format_reference()); }
 
-/// The fabrics as the page lists them.
+/// Returns the page's table of fabrics.
 std::string fabrics_table() {
   std::string text =
       "| `material` | sample | density, kg/m² | modulus, N/m | rigidity, N·m | source |\n|---|---|---|---|---|---|\n";

@@ -43,7 +43,7 @@ const std::string everything =
     "[video]\n"
     "size = [64, 48]\n";
 
-/// A scene loads or is refused with a message; anything else that it throws fails the test.
+/// Expects a scene to load or to be refused with a message; other exceptions fail the test.
 void expect_loads_or_is_refused(const SceneFolder& folder, const std::string& text) {
   try {
     static_cast<void>(folder.load(text));

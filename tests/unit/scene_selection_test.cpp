@@ -1,4 +1,4 @@
-// What selects vertices in [cloth] pins and in effects, and what moves them there.
+// Selections of vertices in [cloth] pins and in effects, and their motions.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using test::SceneFolder;
 
-/// Of a square of 4×4 cells, whose vertices are half a metre apart, or of another mesh.
+/// Returns a cloth of 4×4 cells, half a metre wide, or of another mesh.
 std::string cloth(const std::string& pins, const std::string& mesh = "{ grid = [4, 4] }") {
   return "[cloth]\nmesh = " + mesh + "\nstiffness = 10\npins = [" + pins + "]\n";
 }
@@ -143,7 +143,7 @@ TEST(SceneFollow, ReadsTheMeshThatPinsHoldOnTo) {
       "this table");
 }
 
-// What one folder holds can be computed anywhere: a motion file has it all.
+// A motion file contains all files of its scene's folder, so it can be computed anywhere.
 TEST(SceneFollow, CarriesWhatAUsdFileRefersTo) {
   const SceneFolder folder;
   folder.write(

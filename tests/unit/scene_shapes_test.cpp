@@ -11,7 +11,7 @@
 #include "sim/fabrics.hpp"
 #include "tests/support/scene_folder.hpp"
 
-// Shapes that a scene describes by a few numbers: their geometry, how scenes name them, and what is wrong with others.
+// Shapes defined by a few numbers: their geometry, their keys in scenes, and errors.
 
 namespace drape::scene_shapes {
 namespace {
@@ -29,7 +29,7 @@ double area(const Mesh& mesh) {
   return sum;
 }
 
-/// By Gauss's theorem; positive if triangles are counterclockwise seen from outside.
+/// Returns the volume by Gauss's theorem; positive if triangles are counterclockwise seen from outside.
 double volume(const Mesh& mesh) {
   double sum = 0;
   for (const Triangle& t : mesh.triangles) {
@@ -38,13 +38,13 @@ double volume(const Mesh& mesh) {
   return sum;
 }
 
-/// Vertices − edges + triangles: 2 of a closed surface, 1 of a disc, 0 of a tube.
+/// Returns vertices − edges + triangles: 2 for a closed surface, 1 for a disc, 0 for a tube.
 Eigen::Index euler(const Mesh& mesh) {
   return mesh.positions.rows() - static_cast<Eigen::Index>(unique_edges(mesh.triangles).size()) +
          static_cast<Eigen::Index>(mesh.triangles.size());
 }
 
-/// Every edge is passed once in each direction.
+/// Returns true if every edge is passed once in each direction.
 bool closed(const Mesh& mesh) {
   std::map<std::pair<int, int>, int> passes;
   for (const Triangle& t : mesh.triangles) {
@@ -68,7 +68,7 @@ TEST(SheetShapes, ADiscIsRoundAndFacesUp) {
     EXPECT_EQ(mesh.positions.rows(), 1 + 3 * rings * (rings + 1));
     EXPECT_EQ(mesh.triangles.size(), static_cast<std::size_t>(6 * rings * rings));
     EXPECT_EQ(euler(mesh), 1);
-    const int sides = 6 * rings;  // of the polygon that is its border
+    const int sides = 6 * rings;  // of the polygon at its border
     EXPECT_NEAR(area(mesh), sides / 2.0 * 0.25 * std::sin(2 * pi / sides), 1e-12) << rings;
     EXPECT_NEAR(mesh.positions.rowwise().norm().maxCoeff(), 0.5, 1e-15);
     for (const Triangle& t : mesh.triangles) {
@@ -175,7 +175,7 @@ TEST(BodyShapes, AreNamedInScenes) {
             std::string::npos);
 }
 
-/// Two scenes that differ in nothing but a body's shape are different motions.
+/// Two scenes that differ only in a body's shape are different motions.
 TEST(BodyShapes, BelongToTheMotion) {
   const SceneFolder folder;
   const auto tables = [&](const std::string& radius) {
@@ -213,7 +213,7 @@ TEST(ScenePins, AnEdgeIsEveryVertexAsFarAsTheFarthest) {
             "'edge:w'");
 }
 
-/// Of a plate of thickness t, rigidity and modulus go together: D = E·t²/12/(1 − ν²).
+/// For a plate of thickness t, rigidity and modulus are related by D = E·t²/12/(1 − ν²).
 TEST(Fabrics, PaperIsAPlate) {
   const auto paper = std::ranges::find(fabrics(), "paper", &Fabric::name);
   ASSERT_NE(paper, fabrics().end());

@@ -1,4 +1,4 @@
-// Newton's method where cloth is compressed, so that Hessians have negative eigenvalues.
+// Newton's method for compressed cloth, whose Hessians have negative eigenvalues.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@
 namespace drape::test {
 namespace {
 
-/// A quarter of a cylinder with a rest curvature, whose springs and curvature are a little compressed.
+/// Makes a quarter of a cylinder with a rest curvature, whose springs and curvature are slightly compressed.
 SimulationSettings compressed_shell(double stiffness) {
   Mesh mesh = make_grid(8, 8);
   for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
@@ -32,8 +32,8 @@ SimulationSettings compressed_shell(double stiffness) {
   return settings;
 }
 
-/// A strip in the x-y plane, held at both ends so that it is `compression` shorter than at rest, and bent out of its
-/// plane by a thousandth of a millimetre.
+/// Makes a strip in the xy plane, held at both ends `compression` closer than at rest, and bent out of its plane by a
+/// thousandth of a millimetre.
 SimulationSettings compressed_strip(double compression) {
   Mesh mesh = make_grid(20, 1);
   SimulationSettings settings = setup(cloth_of(mesh, 0.1, 1e4, {0, 20, 21, 41}), Method::implicit, 0.1);
@@ -47,7 +47,7 @@ SimulationSettings compressed_strip(double compression) {
   return settings;
 }
 
-/// A step of some settings from rest, whose solution is looked for.
+/// A step from rest, whose solution is to be found.
 struct RestingStep {
   SimulationSettings settings;
   System system = make_system(settings);
@@ -62,7 +62,7 @@ struct RestingStep {
     point.value = objective.evaluate(x, point.gradient);
     return point;
   }
-  /// Where so many iterations lead from the start.
+  /// Returns the iterate after `iterations` from the start.
   [[nodiscard]] Iterate after(int iterations) const {
     IntegratorSettings integrator = settings.integrator;
     integrator.max_iterations = iterations;
@@ -70,13 +70,13 @@ struct RestingStep {
     Newton(system, objective, integrator).minimise(point, [] { return true; });
     return point;
   }
-  /// Forces on what is not pinned [N].
+  /// Returns random forces on the free vertices [N].
   [[nodiscard]] Vertices forces(int seed = 3) const {
     Vertices b = random_vertices(settings.cloth.vertex_count(), seed);
     for (const int pin : settings.cloth.pins) b.row(pin).setZero();
     return b;
   }
-  /// H p by differences of ∇g.
+  /// Returns H p by differences of ∇g.
   [[nodiscard]] Vertices product(const Vertices& x, const Vertices& p) const {
     const double e = 1e-6 / norm(p);
     return (at(x + e * p).gradient - at(x - e * p).gradient) / (2 * e);
@@ -122,7 +122,7 @@ TEST(Concavity, LeavesADirectionOfDescentWhereTheHessianIsIndefinite) {
   }
 }
 
-// A compressed plane strip is a saddle of g: it has to buckle, and where it ends no direction may lead further down.
+// A compressed plane strip is a saddle of g: it must buckle, and at its end no direction leads further down.
 TEST(Concavity, LetsACompressedStripBuckle) {
   const RestingStep step(compressed_strip(0.01));
   const Iterate start = step.at(step.settings.cloth.positions), end = step.after(100);
@@ -134,7 +134,7 @@ TEST(Concavity, LetsACompressedStripBuckle) {
   }
 }
 
-// Near the minimum ‖∇g‖ of an iteration is proportional to the square of the last one's.
+// Near the minimum ‖∇g‖ is proportional to the square of the previous iteration's.
 TEST(Concavity, LetsIterationsConvergeQuadratically) {
   const RestingStep step(compressed_strip(0.01));
   const double scale = norm(step.at(step.settings.cloth.positions).gradient);

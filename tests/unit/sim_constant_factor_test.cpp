@@ -11,7 +11,7 @@
 namespace drape::test {
 namespace {
 
-/// ‖A x − b‖/‖b‖ over the free vertices.
+/// Returns ‖A x − b‖/‖b‖ over the free vertices.
 double residual(const System& system, const Vertices& x, Vertices b) {
   for (const int pin : system.cloth.pins) b.row(pin).setZero();
   return (constant_matrix(system) * x - b).norm() / b.norm();
@@ -30,7 +30,7 @@ TEST(ConstantFactor, SolvesToItsPrecision) {
     EXPECT_LT(residual(system, x, b), 1e-12);
     for (const int pin : cloth.pins) EXPECT_EQ(x.row(pin).norm(), 0);
 
-    // The condition of A is a few hundred here, and numbers in single precision are right to 6e-8.
+    // The condition of A is a few hundred here, and single precision has an error of 6e-8.
     ConstantFactor singles(system, system.step, Precision::single_precision);
     EXPECT_TRUE(singles.single_precision());
     singles.solve(b, x);
@@ -41,7 +41,7 @@ TEST(ConstantFactor, SolvesToItsPrecision) {
   }
 }
 
-// Beyond 20 000 free vertices the factor is another one.
+// Beyond 20 000 free vertices another factor is used.
 TEST(ConstantFactor, SolvesForAnySizeOfCloth) {
   for (const int cells : {139, 142}) {
     const Cloth cloth = cloth_of(make_grid(cells, cells), 1, 180, {0, 7});
@@ -114,7 +114,7 @@ TEST(ConstantFactor, SolvesForASingleFreeVertex) {
   }
 }
 
-/// n vertices in a row, pinned at one end: the condition of A grows with n².
+/// Makes n vertices in a row, pinned at one end: the condition of A grows with n².
 Cloth long_chain(int n, double stiffness) {
   Cloth cloth;
   cloth.positions = cloth.velocities = Vertices::Zero(n, 3);
@@ -126,8 +126,8 @@ Cloth long_chain(int n, double stiffness) {
   return cloth;
 }
 
-// A has no positive entries beside its diagonal, so its factor loses far fewer digits than its condition lets fear:
-// single precision loses three of them only with both, very many vertices in a row and a large k h²/m.
+// A has no positive off-diagonal entries, so its factor loses far fewer digits than its condition suggests. Single
+// precision loses three of them only with both very many vertices in a row and a large k h²/m.
 TEST(ConstantFactor, DoesNotChooseSinglePrecisionWhereItIsTooCoarse) {
   const Cloth cloth = long_chain(tries(300'000), 1e15);
   const System system(cloth, 0.1);

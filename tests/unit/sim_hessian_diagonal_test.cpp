@@ -13,7 +13,7 @@ namespace {
 
 using Block = Eigen::Matrix3d;
 
-/// D as it is defined: m/h² I + 2 Σ K = 2 H − m/h² I in the blocks on the diagonal of H.
+/// Returns D by its definition: m/h² I + 2 Σ K = 2 H − m/h² I in the diagonal blocks of H.
 Block block_of(const SparseMatrix& hessian, const System& system, int vertex) {
   const Eigen::Index first = 3 * Eigen::Index{vertex};
   return 2 * Block(hessian.block(first, first, 3, 3)) - system.inertia(system.step)[vertex] * Block::Identity();
@@ -48,8 +48,8 @@ TEST(HessianDiagonal, SolvesForTheBlocksOfTheHessian) {
   }
 }
 
-// What is negative across compressed springs is never in D, whatever share of it the Hessian has, and what is along
-// them is there as a whole.
+// D never contains negative parts across compressed springs, whatever share of them the Hessian has; parts along
+// springs are complete.
 TEST(HessianDiagonal, IsTheSameWithAnyShareOfTheNegativeEigenvalues) {
   for (const Mesh& mesh : {make_grid(9, 7), irregular_mesh(8), three_sheets(5)}) {
     const Cloth cloth = cloth_of(mesh, 1, 180, {0, 7});
@@ -73,7 +73,7 @@ TEST(HessianDiagonal, IsTheSameWithAnyShareOfTheNegativeEigenvalues) {
   }
 }
 
-// What conjugate gradients with A⁻¹ + D⁻¹ rely on: D⁻¹ ⪯ H⁻¹, that is bᵀD⁻¹b ≤ bᵀp where H p = b.
+// Conjugate gradients with A⁻¹ + D⁻¹ rely on D⁻¹ ⪯ H⁻¹, that is bᵀD⁻¹b ≤ bᵀp with H p = b.
 TEST(HessianDiagonal, IsNowhereBelowTheHessian) {
   const Cloth cloth = cloth_of(irregular_mesh(10), 1, 180, {0});
   const System system(cloth, 0.02);
@@ -98,7 +98,7 @@ TEST(HessianDiagonal, IsNowhereBelowTheHessian) {
   }
 }
 
-/// How many iterations the equations of a cloth that falls flat take, with a force that pulls every vertex its own way.
+/// Counts the iterations for a cloth that falls flat, with a different force on every vertex.
 int iterations(const Mesh& mesh) {
   int looks = 0;
   const Cloth cloth = cloth_of(mesh, 1, 180, {0});
@@ -113,8 +113,8 @@ int iterations(const Mesh& mesh) {
   return looks;
 }
 
-// Flat cloth is held across its plane by inertia alone, which A knows as little as nothing of: the finer the cloth,
-// the further it is from A, and D knows.
+// Only inertia holds a flat cloth out of plane, which A hardly contains: finer cloth is farther from A, but D includes
+// inertia.
 TEST(HessianDiagonal, LetsFineClothTakeFewerIterationsThanCoarse) {
   EXPECT_LT(2 * iterations(make_grid(32, 31)), iterations(make_grid(31, 30)));
 }

@@ -1,4 +1,4 @@
-// Solving with a packed factor: every version of the kernels gives the same bits, and they are right.
+// Solves with a packed factor: every version of the kernels gives the same, correct bits.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Every version of the kernels gives the same bits, so that a result does not depend on the processor.
+// Every version of the kernels gives the same bits, so that results do not depend on the processor.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace drape::test {
 namespace {
 
-/// Springs between 600 vertices, some of which are in the same place.
+/// Springs between 600 vertices, some of which coincide.
 struct Springs {
   static constexpr std::size_t vertices = 600;
   std::vector<double> positions = numbers(3 * vertices, 1);
@@ -43,7 +43,7 @@ struct Springs {
   }
 };
 
-/// Bands of springs on a stretch of vertices, with what the stretches before it left behind.
+/// Bands of springs on a stretch of vertices, with leftovers of the previous stretches.
 struct Bands {
   static constexpr std::size_t lead = 64, size = lead + kernel_size;
   Springs springs;

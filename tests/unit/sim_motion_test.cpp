@@ -1,4 +1,4 @@
-// Motions as functions of time: keyframes, the tracks of spheres, gusts.
+// Motions as functions of time: keyframes, tracks of spheres, gusts.
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ TEST(Keyframes, SmoothHasNoJumpOfSpeedAndDoesNotOvershoot) {
     const Vector3d after = (path.at(key.time + e) - path.at(key.time)) / e;
     EXPECT_LT((before - after).norm(), 1e-3) << key.time;
   }
-  // It starts and ends at rest, and goes through the second keyframe, whose x rises, without stopping.
+  // It starts and ends at rest, and passes the second keyframe, where x rises, without stopping.
   EXPECT_LT((path.at(0.1 + e) - path.at(0.1)).norm() / e, 1e-3);
   EXPECT_LT((path.at(1) - path.at(1 - e)).norm() / e, 1e-3);
   EXPECT_GT((path.at(0.3 + e) - path.at(0.3))[0] / e, 1);
@@ -65,7 +65,7 @@ TEST(Keyframes, SmoothHasNoJumpOfSpeedAndDoesNotOvershoot) {
   }
 }
 
-// The quotient of differences before a time, to its own error.
+// Compared with backward differences, to their own error.
 TEST(Keyframes, VelocityIsTheirSlope) {
   for (const Interpolation interpolation : {Interpolation::linear, Interpolation::smooth}) {
     const Keyframes path(zigzag, interpolation);

@@ -17,13 +17,13 @@
 namespace drape::test {
 namespace {
 
-/// A symmetric matrix, whole and as its lower triangle.
+/// A symmetric matrix, dense and as its sparse lower triangle.
 struct Symmetric {
   Eigen::MatrixXd dense;
   LowerPattern pattern;
   std::vector<double> values;
 
-  /// Keeps the lower triangle of a matrix; what is zero there is no entry.
+  /// Stores the nonzero entries of a matrix's lower triangle.
   explicit Symmetric(Eigen::MatrixXd lower) : dense(std::move(lower)) {
     pattern.starts.push_back(0);
     for (int column = 0; column < dense.cols(); ++column) {
@@ -38,7 +38,7 @@ struct Symmetric {
   }
 };
 
-/// Positive definite by its diagonal, coupled where `coupled(row, column)` says so.
+/// Makes a diagonally dominant positive definite matrix, coupled where `coupled(row, column)` is true.
 template <class Coupled>
 Symmetric graph(int n, const Coupled& coupled) {
   Random random(7);
@@ -64,7 +64,7 @@ Symmetric full(int n) {
   return graph(n, [](int, int) { return true; });
 }
 
-/// A surface's: the vertices of a grid, in which each is coupled to those around it.
+/// A surface's matrix: the vertices of a grid, each coupled to its neighbours.
 struct GridMatrix {
   Mesh mesh;
   LowerPattern pattern;
@@ -87,7 +87,7 @@ struct GridMatrix {
   }
 };
 
-/// L of the factor, with its zeros.
+/// Returns L of the factor, with its zeros.
 Eigen::MatrixXd lower_of(const MultifrontalCholesky& factor, int n) {
   Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(n, n);
   const PackedTriangle<double> triangle = factor.triangle();
@@ -170,7 +170,7 @@ TEST(MultifrontalCholesky, RefusesAnIndefiniteMatrixAndRecovers) {
   for (const double wrong :
        {-1.0, 0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     std::vector<double> indefinite = matrix.values;
-    indefinite[static_cast<std::size_t>(matrix.pattern.starts[70])] = wrong;  // of the diagonal
+    indefinite[static_cast<std::size_t>(matrix.pattern.starts[70])] = wrong;  // on the diagonal
     EXPECT_FALSE(factor.factorize(indefinite.data())) << wrong;
     ASSERT_TRUE(factor.factorize(matrix.values.data()));
     expect_solution(factor, matrix);

@@ -11,7 +11,7 @@
 namespace drape::test {
 namespace {
 
-/// x, y, z of vertex 0 first.
+/// Flattens to x, y, z of vertex 0 first.
 Eigen::VectorXd by_vertex(const Vertices& v) {
   const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> rows = v;
   return Eigen::Map<const Eigen::VectorXd>(rows.data(), rows.size());
@@ -30,7 +30,7 @@ std::unique_ptr<NewtonSolver> make(const System& system, const StepObjective& ob
 
 class NewtonEquations : public testing::TestWithParam<Case> {
  protected:
-  /// p of a cloth's equations H(x) p = b with steps of h.
+  /// Returns p of a cloth's equations H(x) p = b with steps of h.
   Vertices solve(const Cloth& cloth, double h, const Vertices& x, const Vertices& b) const {
     const System system(cloth, h);
     const StepObjective objective(system, system.step);
@@ -42,14 +42,14 @@ class NewtonEquations : public testing::TestWithParam<Case> {
     return direction;
   }
 };
-// Conjugate gradients stop at a hundredth: the next iteration of Newton's method makes up for it.
+// Conjugate gradients stop at a hundredth: Newton's next iteration compensates for it.
 INSTANTIATE_TEST_SUITE_P(By, NewtonEquations,
                          testing::Values(Case{"Cholesky", make<NewtonCholesky>, 1e-11},
                                          Case{"ConjugateGradients", make<ConjugateGradients>, 1.01e-2},
                                          Case{"TheCheaper", make<CheaperNewton>, 1.01e-2}),
                          [](const auto& tested) { return tested.param.name; });
 
-/// Forces on the free vertices.
+/// Returns random forces on the free vertices.
 Vertices forces(const Cloth& cloth, int seed) {
   Vertices b = random_vertices(cloth.vertex_count(), seed);
   for (const int pin : cloth.pins) b.row(pin).setZero();
@@ -79,8 +79,8 @@ TEST_P(NewtonEquations, AreSolvedForALargeCloth) {
   EXPECT_LT(residual(cloth, 0.02, x, solve(cloth, 0.02, x, b), b), GetParam().tolerance);
 }
 
-// Where every spring is stretched, H is the derivative of the gradient, found here by central differences: wrong by
-// ε² times the third derivatives of the gradient, and its rounding over ε.
+// If every spring is stretched, H is the derivative of the gradient. Central differences have an error of ε² times the
+// gradient's third derivatives, and its rounding over ε.
 TEST_P(NewtonEquations, HoldTheDerivativeOfTheGradientWhereAllSpringsAreStretched) {
   const Cloth cloth = cloth_of(irregular_mesh(6), 1, 180, {0, 3});
   const Vertices x = 1.5 * cloth.positions;
@@ -99,7 +99,7 @@ TEST_P(NewtonEquations, HoldTheDerivativeOfTheGradientWhereAllSpringsAreStretche
 TEST_P(NewtonEquations, PointDownhillHoweverCompressedTheClothIs) {
   const Cloth cloth = cloth_of(make_grid(10, 10), 1, 1e6, {0});
   const Vertices b = forces(cloth, 4);
-  for (const double scale : {0.5, 1e-3, 0.0}) {  // at last all vertices in one place
+  for (const double scale : {0.5, 1e-3, 0.0}) {  // finally all vertices coincide
     const Vertices direction = solve(cloth, 0.1, scale * cloth.positions, b);
     EXPECT_TRUE(direction.allFinite());
     EXPECT_GT(b.cwiseProduct(direction).sum(), 0);

@@ -16,7 +16,7 @@ class UnaskedAccuracy : public testing::TestWithParam<NamedMethod> {
  protected:
   UnaskedAccuracy() : settings_(homework(GetParam(), 0.001, 180)), system_(make_system(settings_)) {}
 
-  /// What a simulation steps with, and how often another system is made for it.
+  /// Returns the scheme of a simulation, counting additional systems that it makes.
   std::unique_ptr<Scheme> scheme() {
     const auto guard = make_guard(settings_, system_);
     return make_scheme(settings_, system_, *guard, [this](double step) {
@@ -31,7 +31,7 @@ class UnaskedAccuracy : public testing::TestWithParam<NamedMethod> {
 };
 INSTANTIATE_TEST_SUITE_P(With, UnaskedAccuracy, testing::ValuesIn(all_methods), method_name);
 
-// Nothing stands between a simulation and the method's own scheme, so there is nothing that could cost anything.
+// A simulation uses the method's own scheme directly, without any overhead.
 TEST_P(UnaskedAccuracy, MakesNothingBesideTheScheme) {
   const auto plain = scheme();
   EXPECT_EQ(dynamic_cast<SubstepScheme*>(plain.get()), nullptr);
@@ -60,7 +60,7 @@ TEST_P(UnaskedAccuracy, GivesTheBitsOfTheScheme) {
   EXPECT_TRUE(same_bits(simulation.state().v, state.v));
 }
 
-/// Solves for nothing: stretches the cloth, and holds it back as a whole by so much that it has less energy for it.
+/// A fake minimiser that stretches the cloth, and slows it down as a whole so much that its total energy falls.
 class SlowingStretcher final : public Minimiser {
  public:
   SlowingStretcher(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
@@ -76,15 +76,14 @@ class SlowingStretcher final : public Minimiser {
   void find_newton_step(const Iterate&, Vertices& direction) override { direction.setZero(); }
 };
 
-// What a solver does to a free cloth as a whole is taken out again, so that its momentum is kept; it must not pay for
-// energy that the cloth is given.
+// A solver's effect on the momentum of a free cloth is removed again; that must not hide energy that the cloth gained.
 TEST(BackwardEuler, GivesNoEnergyToAFreeClothThatItsSolverHasSlowedDown) {
   Cloth cloth = test::grid_cloth(4);
   cloth.pins.clear();
   cloth.velocities.col(2).setOnes();
   const System system(cloth, 0.1);
   IntegratorSettings settings;
-  settings.stop = StoppingRule::change;  // after which no point will do as it is
+  settings.stop = StoppingRule::change;  // under this rule no point is accepted as it is
   settings.max_iterations = 1;
   State state{.x = cloth.positions, .v = cloth.velocities, .step = 0};
   StepForces forces(system, state);

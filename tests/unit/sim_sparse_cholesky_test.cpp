@@ -14,7 +14,7 @@
 namespace drape::test {
 namespace {
 
-/// The lower triangle of a symmetric matrix in the form that SparseCholesky takes.
+/// The lower triangle of a symmetric matrix in SparseCholesky's format.
 struct Lower {
   LowerPattern pattern;
   std::vector<double> values;
@@ -80,7 +80,7 @@ TEST_F(SparseCholeskyOf, ShowsTheFactorItself) {
   EXPECT_LT(difference, 1e-12 * product.cwiseAbs().maxCoeff());
 }
 
-// Eliminating the rim first leaves every row of it with two entries below the diagonal.
+// Eliminating the rim first leaves each of its columns with two entries below the diagonal.
 TEST(SparseCholesky, OfAStarIsAsSparseAsTheStar) {
   constexpr int rim = 100'000;
   LowerPattern star;

@@ -30,7 +30,7 @@ Case springs_of(std::string name, const Mesh& mesh) {
   return result;
 }
 
-/// Springs (i, i + offset) for runs of every length, apart by gaps of every size.
+/// Makes springs (i, i + offset) in runs of every length, separated by gaps of every size.
 Case runs_and_gaps() {
   Case result{"RunsAndGaps", 0, {}};
   Random random;
@@ -118,7 +118,7 @@ TEST_P(SpringNetworkOf, AddsTheGradientOfTheFormula) {
 TEST_P(SpringNetworkOf, AddsInertiaToTheObjective) {
   const Vertices x = random_vertices(GetParam().vertices, 77), y = random_vertices(GetParam().vertices, 78);
   const Eigen::VectorXd inertia = random_vertices(GetParam().vertices, 79).col(0).cwiseAbs();
-  Vertices gradient = Vertices::Constant(x.rows(), 3, 1e9);  // whatever was there before
+  Vertices gradient = Vertices::Constant(x.rows(), 3, 1e9);  // old content is overwritten
   const double value = SpringNetwork(GetParam().springs, GetParam().vertices).evaluate(inertia, y, x, gradient);
   const Vertices pull = (x - y).array().colwise() * inertia.array();
   const Vertices expected = plain_gradient(GetParam().springs, x) + pull;
@@ -145,7 +145,7 @@ TEST_P(SpringNetworkOf, HasTheGradientOfItsEnergy) {
   const Vertices x = random_vertices(GetParam().vertices, 77);
   Vertices gradient = Vertices::Zero(x.rows(), 3);
   network.add_value_gradient(x, gradient);
-  // Along a direction in which every vertex moves differently: (E(x + εd) − E(x − εd))/2ε, wrong by ε²‖E'''‖/6 and the
+  // Along a direction that differs at every vertex: (E(x + εd) − E(x − εd))/2ε has an error of ε²‖E'''‖/6 plus the
   // rounding of E over ε.
   constexpr double epsilon = 1e-6;
   for (const int seed : {1, 2, 3}) {

@@ -59,7 +59,7 @@ TEST_P(Derivatives, TheGradientIsTheSlopeOfTheValue) {
 }
 
 TEST_P(Derivatives, TheSphereAloneAgreesWithItsSlope) {
-  // Its share of g would drown in the springs'.
+  // Its share of g would be negligible beside the springs'.
   Vertices x = cloth_.positions;
   x.col(2).array() -= 0.5;
   const Energy& energy = *system_.energies.front();
@@ -74,7 +74,7 @@ TEST_P(Derivatives, TheSphereAloneAgreesWithItsSlope) {
   EXPECT_NEAR(g.cwiseProduct(direction_).sum(), slope, 1e-6 * g.norm());
 }
 
-// Where every spring is stretched, nothing is left out of the Hessian.
+// If every spring is stretched, the Hessian is complete.
 TEST_P(Derivatives, TheHessianOfStretchedClothIsTheSlopeOfTheGradient) {
   const Vertices x = 5 * cloth_.positions;
   const SpringNetwork& springs = objective_->springs();
@@ -95,8 +95,8 @@ TEST_P(Derivatives, BothLinearSolversSolveTheSameEquations) {
   Vertices exact(x.rows(), 3), iterated(x.rows(), 3);
   NewtonCholesky(system_, *objective_).solve(x, g, 0, exact);
   ConjugateGradients(system_, *objective_).solve(x, g, 0, iterated);
-  // To the tolerance of the inner iteration, in the norm of the forces, which the equations' smallest eigenvalue m/h²
-  // turns into one of lengths.
+  // To the tolerance of the inner iteration in the norm of forces; division by the smallest eigenvalue m/h² gives
+  // lengths.
   const double smallest = objective_->inertia().minCoeff();
   EXPECT_LT((exact - iterated).norm(), 1.1e-2 * g.norm() / smallest);
   for (const int pin : cloth_.pins) {

@@ -43,7 +43,7 @@ struct FirstStep {
     point.value = objective.evaluate(point.x, point.gradient);
     return point;
   }
-  /// Where a method stops at an error.
+  /// Returns the point at which a method stops for an error.
   template <class Solver>
   [[nodiscard]] Iterate solved(double error, StepReport* report = nullptr, const Vertices* start = nullptr) const {
     IntegratorSettings settings;
@@ -62,7 +62,7 @@ struct FirstStep {
 
 double largest_distance(const Vertices& a, const Vertices& b) { return (a - b).rowwise().norm().maxCoeff(); }
 
-/// An energy that is there and nothing else.
+/// An energy that is always zero.
 struct Nothing final : Energy {
   struct Hessian final : EnergyHessian {
     void linearise(const Vertices&, double, double) override {}
@@ -113,12 +113,11 @@ TEST(PatchNewton, MovesNothingWhereTooMuchOrNothingIsAboveTheTolerance) {
   EXPECT_TRUE(same_bits(there.x, minimum));
 }
 
-/// The iterations of the first steps of a large cloth by quasi-Newton, each of which ends within the tolerance of its
-/// minimum.
+/// Iterations of the first steps of a large cloth by quasi-Newton; each step ends within the tolerance of its minimum.
 struct FirstSteps {
-  static constexpr double near = 1e-4;  // the first of Newton's steps is longer [m]
+  static constexpr double near = 1e-4;  // the first Newton step is longer [m]
   int iterations = 0;
-  int by_newton = 0;  // steps that end where the gradient does not show it
+  int by_newton = 0;  // steps whose end the gradient would not detect
 
   explicit FirstSteps(std::unique_ptr<Energy> energy = nullptr) {
     FirstStep step(142, std::move(energy));
@@ -137,11 +136,10 @@ struct FirstSteps {
   }
 };
 
-// An iteration of Newton's says that the minimum is near long before the gradient does, and those on patches take it
-// nearer.
+// A Newton iteration detects the minimum long before the gradient does, and iterations on patches come nearer.
 TEST(QuasiNewton, EndsStepsOfALargeClothWithinTheToleranceOfTheirMinima) {
   const FirstSteps in_patches, as_a_whole(std::make_unique<Nothing>());
-  // Of the first step, which is all that a sanitized build takes, the gradient may show it as well.
+  // A sanitized build takes only the first step, in which the gradient may detect it as well.
   EXPECT_GE(as_a_whole.by_newton, tries(4) > 1 ? 1 : 0);
   EXPECT_LT(in_patches.iterations, as_a_whole.iterations);
 }

@@ -1,4 +1,4 @@
-// What the minimisers have in common or are made of: the line search, what rounding does to g, L-BFGS's directions.
+// Common parts of the minimisers: the line search, rounding of g, L-BFGS directions.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace drape::test {
 namespace {
 
-/// A minimiser that goes where it is told to.
+/// A minimiser with prescribed moves.
 class Told final : public Minimiser {
  public:
   Told(const System& system, const StepObjective& objective) : Minimiser(system, objective, {}, 1) {}
@@ -26,8 +26,8 @@ class Told final : public Minimiser {
   void find_newton_step(const Iterate&, Vertices&) override {}
 };
 
-// Without springs g is a parabola about y. Along t(x − y) a move of length l lowers it by 1 − lt/2 of what its slope
-// promises, and Armijo's condition with the usual constant (Nocedal and Wright 2006, section 3.1) asks for 1e-4 of it.
+// Without springs g is a parabola about y. Along t(x − y) a move of length l lowers it by 1 − lt/2 of its slope's
+// prediction; Armijo's condition with the usual constant (Nocedal and Wright 2006, section 3.1) requires 1e-4 of it.
 TEST(LineSearch, TakesTheLongestMoveThatLowersGByATenThousandthOfItsSlope) {
   Cloth cloth;
   cloth.positions = random_vertices(5, 1);
@@ -51,7 +51,7 @@ TEST(LineSearch, TakesTheLongestMoveThatLowersGByATenThousandthOfItsSlope) {
   }
 }
 
-/// g as its formula is written, in extended precision, of the numbers that the objective has.
+/// Returns g by its formula, in extended precision, from the objective's numbers.
 long double exact_value(const StepObjective& objective, const Cloth& cloth, const Vertices& x) {
   using Row = Eigen::Matrix<long double, 1, 3>;
   long double sum = 0;
@@ -66,7 +66,7 @@ long double exact_value(const StepObjective& objective, const Cloth& cloth, cons
   return sum;
 }
 
-// What the allowance is for a line search that must not go uphill: enough, and not much more.
+// Rounding allowance of a line search that must not go uphill: sufficient, and not much larger.
 TEST(ObjectiveRounding, IsAsLargeAsItHasToBe) {
   double largest = 0;
   for (const double stiffness : {1.0, 180.0, 1e6}) {
@@ -90,7 +90,7 @@ TEST(ObjectiveRounding, IsAsLargeAsItHasToBe) {
   EXPECT_GT(largest, 1e-3);
 }
 
-/// What the springs have there.
+/// Returns the springs' energy at x.
 double elastic(const StepObjective& objective, const Vertices& x) {
   Vertices gradient = Vertices::Zero(x.rows(), 3);
   return objective.evaluate(x, gradient) - objective.inertial_value(x);
@@ -128,13 +128,13 @@ TEST(LeastElastic, IsReachedByASpringWhoseEndsMoveTowardsEachOther) {
   EXPECT_NEAR(objective.least_elastic(energy, distance), stiffness / 2 * left * left, 1e-12);
 }
 
-/// A change of the unknowns and that of the gradient with it.
+/// A change of the unknowns and the corresponding change of the gradient.
 struct CurvaturePair {
   Eigen::VectorXd step, change;
 };
 
-/// The inverse Hessian that BFGS makes of γA⁻¹ with these pairs, the oldest first, as its formula is written; γ makes
-/// it fit the newest pair in the norm of A⁻¹ (Nocedal and Wright 2006, eqs. 6.17 and 7.20, the latter preconditioned).
+/// Returns BFGS's inverse Hessian from γA⁻¹ and these pairs, the oldest first, by its formula; γ fits it to the newest
+/// pair in the norm of A⁻¹ (Nocedal and Wright 2006, eqs. 6.17 and 7.20, the latter preconditioned).
 Eigen::MatrixXd dense_bfgs(const Eigen::MatrixXd& inverse, const std::vector<CurvaturePair>& pairs) {
   Eigen::MatrixXd h = inverse;
   if (pairs.empty()) return h;

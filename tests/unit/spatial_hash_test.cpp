@@ -12,7 +12,7 @@
 namespace drape::spatial_hash {
 namespace {
 
-/// Calls visit(k, l), k < l, for every two boxes that overlap.
+/// Calls visit(k, l), k < l, for every two overlapping boxes.
 void for_pairs(const SpatialHash& hash, int boxes, auto&& visit) {
   for (int k = 0; k < boxes; ++k) hash.for_later(k, [&](int l) { visit(k, l); });
 }

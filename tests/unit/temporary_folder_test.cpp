@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The temporary folder of the system is the test's own.
+/// Tests whose system's temporary folder is their own.
 class TemporaryFolders : public test::InScratchFolder {
  protected:
   void SetUp() override { ::setenv("TMPDIR", folder_.c_str(), 1); }
@@ -56,13 +56,13 @@ TEST_F(TemporaryFolders, OfKilledProcessesGoWithTheNext) {
     ::kill(::getpid(), SIGKILL);
   }
   ::waitpid(child, nullptr, 0);
-  fs::create_directory(folder_ / "drape-tester");  // not of this kind
+  fs::create_directory(folder_ / "drape-tester");  // of another kind
   fs::create_directory_symlink("/", folder_ / "drape-test-link");
   std::optional<TemporaryFolder> held(std::in_place, "drape-test");
   EXPECT_EQ(entries(), 4) << "what has just been made may not have its lock yet";
   age_all();
   const TemporaryFolder next("drape-test");
-  EXPECT_EQ(entries(), 4);  // the two that are held, and what is not drape's
+  EXPECT_EQ(entries(), 4);  // the two held ones, and the two entries that are not drape's
   EXPECT_TRUE(fs::exists(held->path()));
   EXPECT_TRUE(fs::is_symlink(folder_ / "drape-test-link"));
 }

@@ -32,7 +32,7 @@ TEST(Printable, ReplacesWhatNoPageMayHold) {
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a" + mark + "b");
   EXPECT_EQ(printable("\x1B[31m\x7F\r"), mark + "[31m" + mark + mark);
   EXPECT_EQ(printable("\xC2\x85"), mark + mark);             // U+0085, a control character
-  EXPECT_EQ(printable("\xEF\xBF\xBF"), mark + mark + mark);  // U+FFFF, no character
+  EXPECT_EQ(printable("\xEF\xBF\xBF"), mark + mark + mark);  // U+FFFF, a noncharacter
 }
 
 TEST(Printable, ReplacesWhatTurnsTheDirectionOfWriting) {

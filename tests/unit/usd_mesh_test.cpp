@@ -21,7 +21,7 @@ using Uv = std::array<float, 2>;
 
 const std::string test_data = DRAPE_SOURCE_DIR "/tests/data/";
 
-/// The message for a mesh with these lines from line 5 on.
+/// Returns the message for a mesh with these lines from line 5 on.
 std::string mesh_error(const std::string& lines) {
   return usd_error(usd_header + "def Mesh \"m\" {\n" + lines + "\n}\n");
 }
@@ -188,7 +188,7 @@ TEST(UsdReader, RefusesPrimsNestedTooDeep) {
   EXPECT_NE(usd_error(usd_header + "def Mesh \"m\" { float[] a = " + std::string(100000, '[')), "(no error)");
 }
 
-// A cut file is a valid one or gets a message; reading it never crashes or hangs.
+// A truncated file is valid or gets a message; reading never crashes or hangs.
 TEST(UsdReader, SurvivesAFileCutAnywhere) {
   for (const char* name : {"house_y_up.usda", "vertex_uvs.usda", "indexed_uvs.usda"}) {
     const std::string text(SourceText::read(test_data + name).text());
@@ -203,7 +203,7 @@ TEST(UsdReader, SurvivesAFileCutAnywhere) {
   }
 }
 
-// Any single damaged byte: the result does not matter, only that there is one.
+// For any single damaged byte, reading ends with some result.
 TEST(UsdReader, SurvivesAnyDamagedByte) {
   const std::string text(SourceText::read(test_data + "indexed_uvs.usda").text());
   for (std::size_t i = 0; i < text.size(); ++i) {

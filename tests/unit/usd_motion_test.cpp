@@ -27,10 +27,10 @@ std::string error_of(const std::string& text) {
   return usage_error([&] { parse(text); });
 }
 
-/// A sphere with these lines from line 7 on.
+/// Returns a sphere with these lines from line 7 on.
 std::string ball(const std::string& lines) { return ball_header + "def Sphere \"ball\" {\n" + lines + "\n}\n"; }
 
-/// Where the operations, in this order, take a point.
+/// Applies the operations in this order to a point.
 Vector3d moved(const std::string& attributes, const std::string& order, const Vector3d& point) {
   return parse(ball(attributes + "\nuniform token[] xformOpOrder = [" + order + "]")).at(0) * point;
 }
@@ -55,7 +55,7 @@ TEST(UsdTransform, TurnsCounterclockwiseByDegrees) {
   EXPECT_TRUE(turned("xformOp:rotateX", "90", {0, 1, 0}).isApprox(Vector3d(0, 0, 1)));
   EXPECT_TRUE(turned("xformOp:rotateY", "90", {0, 0, 1}).isApprox(Vector3d(1, 0, 0)));
   EXPECT_TRUE(turned("xformOp:rotateZ", "90", {1, 0, 0}).isApprox(Vector3d(0, 1, 0)));
-  // About x first: z → −y, then about y nothing, then about z: −y → x. The other way round: z, then z → x, then x.
+  // About x first: z → −y, then about y nothing, then about z: −y → x. In the opposite order: z, then z → x, then x.
   EXPECT_TRUE(turned("xformOp:rotateXYZ", "(90, 0, 90)", {0, 0, 1}).isApprox(Vector3d(1, 0, 0)));
   EXPECT_TRUE(turned("xformOp:rotateZYX", "(90, 0, 90)", {0, 0, 1}).isApprox(Vector3d(0, -1, 0)));
   EXPECT_TRUE(turned("xformOp:rotateYZX", "(0, 90, 90)", {0, 0, 1}).isApprox(Vector3d(0, 1, 0)));
@@ -143,7 +143,7 @@ TEST(UsdMotion, PrefersTheShapeThatMoves) {
   EXPECT_EQ(error_of(ball_header), "ball.usda: there is neither a Mesh nor a Sphere nor a moving prim in the file");
 }
 
-// What stands still is no track, nor what only its skeleton moves.
+// A static prim is no track, nor is one moved only by its skeleton.
 TEST(UsdMotion, OfNothingIsNoTrack) {
   const test::ScratchFolder folder;
   const auto error_of_track = [&](const std::string& text) {
@@ -180,7 +180,7 @@ TEST(UsdMotion, BoundsTheShapeByASphereThatFollowsUnitsAndUpAxis) {
   EXPECT_NEAR(track.sphere_at(0).radius, 0.1, 1e-16);
 }
 
-// What is drawn and collided with is a sphere, whatever becomes of it: no point of it may be outside.
+// The result is a sphere that must contain all points of the stretched shape.
 TEST(UsdMotion, HoldsAStretchedShapeWhole) {
   for (const char* scale : {"(2, 3, 5)", "(5, 2, 3)", "(-5, 3, 2)"}) {
     const TransformTrack track = parse(
@@ -209,7 +209,7 @@ TEST(UsdMotion, SwingsTheShowcaseSphereOnItsRope) {
   }
 }
 
-/// The homework's animated sphere is not part of the project; see DRAPE_REFERENCE_MESHES.
+/// Tests with the homework's animated sphere, which is not part of the project; see DRAPE_REFERENCE_MESHES.
 class AnimatedSphere : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -221,7 +221,7 @@ class AnimatedSphere : public ::testing::Test {
   std::filesystem::path file_;
 };
 
-/// The last row of the matrix that a line "   12: ( (…), (…), (…), (x, y, z, 1) )" of the file gives.
+/// Returns the last row of the matrix in a line "   12: ( (…), (…), (…), (x, y, z, 1) )" of the file.
 Vector3d translation_in_text(const SourceText& source, int time_code) {
   const std::string_view text = source.text();
   const std::size_t line = text.find("\n            " + std::to_string(time_code) + ": (");

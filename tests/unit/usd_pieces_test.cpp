@@ -1,4 +1,4 @@
-// A USD file that is read a piece at a time says the same as its text in memory, wherever a piece ends.
+// A USD file read in pieces gives the same as its text in memory, wherever a piece ends.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 class UsdPieces : public test::InScratchFolder {
  protected:
-  /// All that a reader takes of a stage, or why it takes nothing.
+  /// Returns all data that a reader takes from a stage, or its error.
   static std::string read(const SourceText& source) {
     std::string text;
     const std::string error = test::usage_error([&] {
@@ -31,8 +31,8 @@ class UsdPieces : public test::InScratchFolder {
     return text + " " + error;
   }
 
-  /// Expects the same of a text in memory and in its file.
-  /// @returns what that is
+  /// Expects the same of a text in memory and of its file.
+  /// @returns the common result
   std::string expect_same(const std::string& text) {
     const std::filesystem::path file = put(path("a.usda"), text);
     std::string whole, pieces;
@@ -57,7 +57,7 @@ TEST_F(UsdPieces, MayEndAnywhere) {
       samples + "}\n";
   const std::string whole = expect_same(test::usd_header + words);
   EXPECT_NE(whole.find("t = 2: (0, 0, 2)"), std::string::npos) << whole;
-  // The end of a piece goes through all of it.
+  // Moves the end of a piece through all of it.
   const std::size_t before = SourceText::piece_bytes - test::usd_header.size();
   for (std::size_t k = 0; k <= words.size(); ++k) {
     const std::string padding(before - k - 2, ' ');

@@ -40,7 +40,7 @@ TEST(UsdStage, TakesTheMeshThatIsNamed) {
       "cloth.usda:18:1: '/c' is no Mesh and has none below it; the fil");
 }
 
-// Files of assets keep their meshes there, for others to refer to.
+// Asset files keep meshes outside the scene, for others to refer to.
 TEST(UsdStage, ReadsWhatIsNoPartOfTheSceneWhereNothingElseIs) {
   const std::string mesh = "def Mesh \"m\" {\n" + usd_triangle + "}\n";
   EXPECT_EQ(usd_mesh(usd_header + "over \"model\" {\n" + mesh + "}\n").positions.rows(), 3);
@@ -72,7 +72,7 @@ TEST(UsdStage, ReadsWhatAPrimRefersTo) {
     return folder.put(folder.path() / name, text);
   };
   put("part.usda", "#usda 1.0\n( defaultPrim = \"m\" )\ndef Mesh \"m\" {\n" + usd_triangle + "}\n");
-  // What stands nearer wins: of the moves that of the file itself, and of the units and the up axis too.
+  // The nearer definition wins: transforms, units and up axis of the file itself.
   const std::string move =
       "{\nfloat3 xformOp:translate = (0, 0, 7)\nuniform token[] xformOpOrder = [\"xformOp:translate\"]\n}\n";
   for (const std::string arc : {"references = @part.usda@", "prepend references = [@./part.usda@</m>]",
@@ -104,7 +104,7 @@ TEST(UsdStage, SaysWhatItCannotFollow) {
             "itself");
 }
 
-// Two prims that refer to each other, or to each other's child, never end; nor do more than there is memory for.
+// Two prims that refer to each other, or to each other's child, end with an error, without exhausting memory.
 TEST(UsdStage, EndsWhereReferencesDoNot) {
   const auto prim = [](const std::string& name, const std::string& refers, const std::string& inside = "") {
     return "def \"" + name + "\" ( references = " + refers + " ) { " + inside + " }\n";
@@ -136,7 +136,7 @@ TEST(UsdStage, LooksAtAMillionPrimsAtMost) {
   EXPECT_NE(usd_error(many).find("references lead to more than 1048576 prims"), std::string::npos);
 }
 
-/// Files that others made are not part of the project.
+/// Returns a file of another author, which is not part of the project.
 std::filesystem::path real_file(const std::string& name) {
   return std::filesystem::path(DRAPE_SOURCE_DIR "/../shared/reference/real") / name;
 }
@@ -150,7 +150,7 @@ TEST(UsdStage, ReadsRealFilesWithSeveralMeshesAndWithVariants) {
                 "m), /root/Grid/Grid (25 vertices, 32 triangles, 2 × 2 × 0 m); choose one by its name: { file = …, "
                 "prim = \"/root/Model/Mesh/Mesh\" }");
   EXPECT_EQ(read_mesh(arm, {.prim = "/root/Grid"}).positions.rows(), 25);
-  // Of the two pyramids that it refers to, the first has the stronger selection: that with the holes.
+  // The first of its two referenced pyramids has the stronger selection: the one with the holes.
   EXPECT_EQ(read_mesh(pyramid).triangles.size(), 4U + 12 * 2);
 }
 

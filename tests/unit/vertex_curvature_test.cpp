@@ -7,7 +7,7 @@
 namespace drape {
 namespace {
 
-/// The vertices of a grid that are not at its border.
+/// Returns the inner vertices of a grid.
 std::vector<int> inner(int columns, int rows) {
   std::vector<int> vertices;
   for (int j = 1; j < rows; ++j) {
@@ -40,7 +40,7 @@ TEST(VertexCurvature, OfASphereIsOneOverItsRadius) {
   double sum = 0;
   const std::vector<int> vertices = inner(60, 60);
   for (const int vertex : vertices) sum += curvature[vertex];
-  // Slightly more: where the grid is sheared, a diagonal is bent inwards, and the others the more outwards.
+  // Slightly more: in the sheared grid a diagonal bends inwards, and the others bend outwards more.
   EXPECT_NEAR(sum / static_cast<double>(vertices.size()), 1 / radius, 0.04 / radius);
 }
 

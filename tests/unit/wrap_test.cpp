@@ -42,7 +42,7 @@ TEST(Wrap, LeavesAloneWhatFitsAndWhatCannot) {
   EXPECT_EQ(wrapped(text, 20), text);
   EXPECT_EQ(wrapped(std::string(200, 'a').append(" b"), unlimited_width), std::string(200, 'a').append(" b"));
   EXPECT_EQ(wrapped(std::string(50, 'a').append(" b"), 30), std::string(50, 'a').append("\nb"));
-  // Letters count, not bytes.
+  // Characters count, not bytes.
   EXPECT_EQ(wrapped("µµµµµµµµµµ µµµµµµµµµµ µµµµµµµµ", 30), "µµµµµµµµµµ µµµµµµµµµµ µµµµµµµµ");
 }
 

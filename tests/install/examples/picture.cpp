@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <drape/render/renderer.hpp>
 
-// Draws a cloth from above without a scene: its middle has the cloth's colour, the corner the background's.
+// Draws a cloth from above without a scene: the middle has the cloth's colour, the corner the background's.
 int main() {
   const drape::Mesh mesh = drape::make_grid(4, 4);
   const drape::View view{.position = {0, 0, 8}, .target = {0, 0, 0}, .up = {0, 1, 0}};

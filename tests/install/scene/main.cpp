@@ -2,7 +2,7 @@
 #include <drape/scene/scene.hpp>
 #include <drape/sim/simulation.hpp>
 
-// scene SCENE: prints the last positions as drape simulate --positions writes them.
+// scene SCENE: prints the last positions in the format of drape simulate --positions.
 int main(int, char** argv) {
   try {
     const drape::Scene scene = drape::load_scene(argv[1]);

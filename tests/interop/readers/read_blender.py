@@ -7,7 +7,7 @@ import bpy
 
 def import_obj(file):
     bpy.ops.wm.obj_import(filepath=file, forward_axis="Y", up_axis="Z")
-    objects = bpy.context.selected_objects  # what the cloth may touch, too
+    objects = bpy.context.selected_objects  # includes colliders
     return next((one for one in objects if one.name.startswith("cloth")), objects[0])
 
 

@@ -1,6 +1,6 @@
-// node read_glb.mjs MODULES FILE: makes sure that Khronos' validator finds neither errors nor warnings in a binary glTF, and
-// prints its motion as three's GLTFLoader and its animations show it. MODULES is the folder node_modules that has both.
-// For how, see interop_test.cpp.
+// node read_glb.mjs MODULES FILE: checks a binary glTF with Khronos' validator, which must find neither errors nor
+// warnings, and prints its motion as shown by three's GLTFLoader and animations, in the form of interop_test.cpp.
+// MODULES is the folder node_modules with both.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';

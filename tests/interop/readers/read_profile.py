@@ -11,7 +11,7 @@ import sys
 
 from scipy import stats
 
-runs = collections.defaultdict(dict)  # of each scene, kind, method, scheme and setting: quantity and number to value
+runs = collections.defaultdict(dict)  # by scene, kind, method, scheme and setting: quantity and number to value
 with open(sys.argv[1], newline="", encoding="utf-8") as file:
     for row in csv.DictReader(file):
         key = row["scene"], row["kind"], row["method"], row["scheme"], row["setting"]
@@ -22,7 +22,7 @@ def values(key, quantity):
     return [float(value) for _, value in sorted(runs[key].get(quantity, []))]
 
 
-times = collections.defaultdict(lambda: math.inf)  # of a solver and a problem
+times = collections.defaultdict(lambda: math.inf)  # by solver and problem
 problems = set()
 for key in runs:
     scene, kind, method, scheme, setting = key
@@ -33,7 +33,7 @@ for key in runs:
             continue
         problems.add((scene, target))
         steps = values(key, "steps")[0]
-        # With its share of the set-up.
+        # Includes its share of the set-up.
         cost = [
             of_step + before / steps
             for of_step, before in itertools.zip_longest(
@@ -51,7 +51,7 @@ best = {p: min(times[solver, *p] for solver in solvers) for p in problems}
 ratios = {s: [times[s, *p] / best[p] if math.isfinite(times[s, *p]) else math.inf for p in problems] for s in solvers}
 for solver in solvers:
     for tau in (1, 1.5, 2, 4, 10, 1e9):
-        # Rounding must not decide: the share at what is a hair above.
+        # Rounding must not decide: takes the share slightly above.
         share = stats.percentileofscore(ratios[solver], tau * (1 + 1e-12), kind="weak") / 100
         print("s", solver, repr(float(tau)), repr(float(share)))
 
@@ -59,5 +59,5 @@ for key in runs:
     cost = sorted(values(key, "microseconds_per_step"))
     if len(cost) < 6:
         continue
-    first = int(stats.binom.ppf(0.025, len(cost), 0.5))  # the largest l with P(B < l) of a 40th at most
+    first = int(stats.binom.ppf(0.025, len(cost), 0.5))  # the largest l with P(B < l) ≤ 1/40
     print("i", *(part or "-" for part in key[1:]), repr(cost[first - 1]), repr(cost[-first]))

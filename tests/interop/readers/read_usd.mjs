@@ -1,6 +1,6 @@
-// node read_usd.mjs MODULES FILE: prints the motion of a USD file as three's USDLoader reads it, and makes sure that
-// tinyusdz, which is stricter, reads the same mesh. MODULES is the folder node_modules that has both. For how, see
-// interop_test.cpp.
+// node read_usd.mjs MODULES FILE: prints the motion of a USD file as read by three's USDLoader, in the form of
+// interop_test.cpp, and checks that the stricter tinyusdz reads the same mesh. MODULES is the folder node_modules with
+// both.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';

@@ -1,5 +1,5 @@
-# blender --background --python blender_cloth.py -- FOLDER: a cloth of Blender's falls over a ball; its frames as OBJ files, 50 in a
-# second.
+# blender --background --python blender_cloth.py -- FOLDER: a cloth of Blender falls over a ball; writes OBJ files at 50 frames
+# per second.
 import os
 import sys
 
@@ -26,7 +26,7 @@ cloth = bpy.context.object
 settings = cloth.modifiers.new("cloth", "CLOTH").settings
 settings.quality = 10
 settings.air_damping = 0
-# Gravity in a step is a thousandth of the scene's per frame², which is right at √1000 frames per second.
+# Gravity per step is a thousandth of the scene's per frame², which is right at √1000 frames per second.
 settings.time_scale = 1000**0.5 / scene.render.fps
 collision = cloth.modifiers["cloth"].collision_settings
 collision.distance_min = 0.01

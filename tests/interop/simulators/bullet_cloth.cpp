@@ -1,5 +1,5 @@
-// bullet_cloth FOLDER: a cloth of Bullet's (btSoftBody) falls over a ball; its frames as OBJ files, 50 in a second.
-// Not part of drape's build: imported_test.cpp compiles it with pkg-config bullet, where that is.
+// bullet_cloth FOLDER: a cloth of Bullet (btSoftBody) falls over a ball; writes OBJ files at 50 frames per second.
+// Not part of drape's build: imported_test.cpp compiles it with pkg-config bullet, if that is installed.
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
@@ -27,7 +27,7 @@ int main(int, char** arguments) {
   btStaticPlaneShape plane(btVector3(0, 0, 1), 0);
   const auto add_rigid = [&](btCollisionShape& shape, float z) {
     auto* const state = new btDefaultMotionState(btTransform(btQuaternion::getIdentity(), btVector3(0, 0, z)));
-    world.addRigidBody(new btRigidBody(0, state, &shape));  // of the process, as what Bullet's own examples make
+    world.addRigidBody(new btRigidBody(0, state, &shape));  // never deleted, as in Bullet's own examples
   };
   add_rigid(ball, 0.5F);
   add_rigid(plane, 0);

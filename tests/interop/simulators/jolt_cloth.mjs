@@ -1,5 +1,5 @@
-// node jolt_cloth.mjs MODULES FOLDER: a cloth of Jolt's (soft body) falls over a ball; its frames as OBJ files, 50 in a second.
-// MODULES is the folder node_modules that has jolt-physics.
+// node jolt_cloth.mjs MODULES FOLDER: a cloth of Jolt (soft body) falls over a ball; writes OBJ files at 50 frames per
+// second. MODULES is the folder node_modules with jolt-physics.
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 

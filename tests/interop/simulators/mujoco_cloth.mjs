@@ -1,5 +1,5 @@
-// node mujoco_cloth.mjs MODULES FOLDER: a cloth of MuJoCo's (flex) falls over a ball; its frames as OBJ files, 50 in a second.
-// MODULES is the folder node_modules that has mujoco-js.
+// node mujoco_cloth.mjs MODULES FOLDER: a cloth of MuJoCo (flex) falls over a ball; writes OBJ files at 50 frames per
+// second. MODULES is the folder node_modules with mujoco-js.
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 
