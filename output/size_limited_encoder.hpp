@@ -12,18 +12,10 @@ namespace drape {
 /// A film of limited file size. It keeps all pictures until the last is added, then encodes them at several sizes and
 /// rates to find the largest film that fits. Its duration is unchanged: it plays every n-th picture.
 ///
-<<<<<<< HEAD:output/size_limited_encoder.hpp
-/// Its pictures become smaller first, down to half their width; then their rate, down to 10 in a second, at half the
-/// width or more; then their size again. Of what may not change the other alone does. The width that is found is one
-/// that fits where one that is a hundredth larger, or a pixel, does not; the rate is the first that does. They depend
-/// on nothing but the pictures.
-class SizeLimitedEncoder final : public Encoder {
-=======
 /// Pictures shrink first, down to half their width; then the rate falls, down to 10 per second, at half the width or
 /// more; then pictures shrink further. FilmKeeps excludes one of the two. The width is maximal to one percent, or one
 /// pixel; the rate is the first that fits. The result depends only on the pictures.
 class SizeLimitedEncoder final : public Encoder {
->>>>>>> w4tmp:output/size_limited_encoder.hpp
  public:
   /// @param make maker of the film's encoder at any size
   /// @param film film with a limit for its file

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// What `orbit` turns by until a frame.
+/// Returns the rotation by `orbit` until a frame.
 Eigen::Matrix3d turn(const Camera& camera, const Eigen::Vector3d& about, int frame, int count) {
   const double part = static_cast<double>(frame) / count;
   return Eigen::AngleAxisd(camera.orbit * part * std::numbers::pi / 180, unit_vector(about)).toRotationMatrix();

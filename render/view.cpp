@@ -85,7 +85,7 @@ DepthRange depth_range(const View& view, const Frame& frame, double thickness) {
   const double room = thickness + 0.02 * std::max(farthest - nearest, 1e-3 * farthest);
   farthest += room;
   // A ground is seen in front of everything else and behind it, where its depth need only be that of the range's ends.
-  // Where two of them meet one hides the other.
+  // Two grounds hide each other where they meet.
   if (grounds > 1) return {0.01 * farthest, 10 * farthest};
   // A near plane at zero would leave no depth precision at all, so what nearly touches the camera is cut.
   return {std::max(nearest - room, 1e-3 * farthest), farthest};

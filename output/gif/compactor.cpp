@@ -63,7 +63,7 @@ Compactor::Pixel Compactor::pixel(const IndexedFrame& frame, std::size_t i, int 
 Patch Compactor::changed(const IndexedFrame& frame) const {
   Span rows, columns;
   for (int y = 0; y < height_; ++y) {
-    // What was a little off in the frame before is now put right.
+    // Pixels that were slightly wrong in the previous frame are corrected now.
     Span span = touched_[static_cast<std::size_t>(y)];
     span.include(frame.touched[static_cast<std::size_t>(y)]);
     const auto stays = [&](int x) {

@@ -87,11 +87,7 @@ TEST(MotionFile, TakesAboutThirtyBitsForWhatIsRounded) {
     window.start.v = rounded(Vertices::Random(441, 3), golden.quanta.velocity);
   }
   const std::size_t rounded_size = pack_motion(golden).size();
-<<<<<<< HEAD
-  EXPECT_LT(8 * rounded_size, 36u * 4 * 441 * 3);  // four fields; what is random is predicted worse than not at all
-=======
   EXPECT_LT(8 * rounded_size, 36u * 4 * 441 * 3);  // four fields; prediction makes random numbers larger
->>>>>>> w4tmp
   for (GoldenWindow& window : golden.windows) window.start = {Vertices::Random(441, 3), Vertices::Random(441, 3), 0};
   EXPECT_GT(pack_motion(golden).size(), 3 * rounded_size / 2);
 }

@@ -1,4 +1,4 @@
-// What script/arm64 is made of, as far as it can be tried without a cross-compiler.
+// The parts of script/arm64 that need no cross-compiler.
 
 #include <gtest/gtest.h>
 

@@ -60,13 +60,8 @@ TEST_P(Release, ASheetThatLiesIsInBalance) {
   s.effects.add(solved_ground());
   Simulation simulation(s);
   run(simulation, 0.5);
-<<<<<<< HEAD
-  if (GetParam().is_explicit()) return;  // they leave nothing
-  EXPECT_LT(simulation.residual_force(), 0.01 * simulation.weight());
-=======
   if (GetParam().is_explicit()) return;  // explicit methods have no residual
   EXPECT_LT(simulation.residual_force(), 0.01 * simulation.weight());
->>>>>>> w4tmp
   EXPECT_LT(simulation.residual(), 0.01 * simulation.weight());
   EXPECT_LT(simulation.error(), 1e-4);
 }

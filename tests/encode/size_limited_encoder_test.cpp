@@ -90,13 +90,8 @@ TEST_F(SizeLimitedEncoder, HasTheHighestRateThatFitsWhereItKeepsItsSize) {
   }
 }
 
-<<<<<<< HEAD:tests/encode/size_limited_encoder_test.cpp
-/// Half the width first, then a quarter of the rate at half the width or more, then less.
-TEST_F(SizeLimitedEncoder, GivesUpSizeThenRateThenSize) {
-=======
 /// First half the width, then a quarter of the rate at half the width or more, then a smaller width.
 TEST_F(SizeLimitedEncoder, GivesUpSizeThenRateThenSize) {
->>>>>>> w4tmp:tests/encode/fitted_film_test.cpp
   const std::uint64_t half = size_of(".gif", full_width / 2), slow = size_of(".gif", full_width / 2, 4);
   ASSERT_GT(half, slow);
   EXPECT_EQ(write("x.gif", FileLimit{half}).note.find("frames"), std::string::npos);

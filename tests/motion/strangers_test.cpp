@@ -69,11 +69,7 @@ TEST_F(StrangersMotion, IsDrawnOrRefusedWhicheverByteOfAPayloadIsAnother) {
   }
 }
 
-<<<<<<< HEAD
-/// Sets every place in a motion. What is predicted from nothing is there as it is, its bits shifted by one.
-=======
 /// Sets every position in a motion. Values without a prediction are stored directly, shifted by one bit.
->>>>>>> w4tmp
 void set_places(OpenedBlocks& blocks, double value) {
   for (OpenedBlock& block : blocks.blocks) {
     if (block.tag != state_tag) continue;

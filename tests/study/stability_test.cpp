@@ -41,15 +41,9 @@ TEST_P(StabilityBorders, LieWhereTheyArePredicted) {
   EXPECT_LE(border.measured / border.predicted, 1.2);
 }
 
-<<<<<<< HEAD
-// Where a flat cloth's springs and the push are equally stiff, each moves in directions in which the other does not
-// resist, and the bound that adds them is too careful by √2 and what it is by for the springs alone.
-TEST(StabilityLimit, IsBeyondThePredictionWhereSpringsAndPushDoNotAddUp) {
-=======
 // If a flat cloth's springs and the push are equally stiff, each moves in directions in which the other does not
 // resist. The bound that adds them is then too small by √2, in addition to its margin for springs alone.
 TEST(StabilityLimit, IsBeyondThePredictionWhereSpringsAndPushDoNotAddUp) {
->>>>>>> w4tmp
   constexpr double stiffness = 1.4e5;
   const StabilityLimit border = stability_border(Method::semi_implicit, StabilityAxis::push, stiffness);
   EXPECT_GE(border.measured / border.predicted, 0.98);

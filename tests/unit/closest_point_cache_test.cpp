@@ -71,13 +71,8 @@ TEST(ClosestPointCache, FindsTheVeryFootThatASearchFinds) {
   }
 }
 
-<<<<<<< HEAD:tests/unit/closest_point_cache_test.cpp
-TEST(ClosestPointCache, DoesNotForgetWhatItHasLeftOut) {
-  // Around the edges of a box, which are the nearest to one place and, two reaches further, not to the other.
-=======
 TEST(ClosestPointCache, DoesNotForgetWhatItHasLeftOut) {
   // Around a box's edges, which are closest to one position but, two reaches farther, not to the other.
->>>>>>> w4tmp:tests/unit/foot_memory_test.cpp
   const double reach = 0.02;
   const Wobbling body(make_box({0.4, 0.4, 0.6}));
   std::mt19937 random(3);

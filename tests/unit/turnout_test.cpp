@@ -12,17 +12,10 @@ struct Machine {
   BusyBackoff turnout;
   BusyBackoff::Time now = 1h, lost = 0ns, alone = 0ns;
 
-<<<<<<< HEAD
-  /// @param taken, waited  by and within every loop that is divided
-  void run(BusyBackoff::Time taken, BusyBackoff::Time waited, BusyBackoff::Time length) {
-    for (const BusyBackoff::Time end = now + length; now < end; now += taken) {
-      if (turnout.active(now)) {
-=======
   /// @param taken, waited  time of every divided loop, and its waiting time
   void run(BusyBackoff::Time taken, BusyBackoff::Time waited, BusyBackoff::Time length) {
     for (const BusyBackoff::Time end = now + length; now < end; now += taken) {
       if (turnout.active(now)) {
->>>>>>> w4tmp
         alone += taken;
       } else {
         lost += waited;
@@ -54,13 +47,8 @@ TEST(BusyBackoff, TriesAgain) {
   EXPECT_LT(machine.alone, 200ms);
 }
 
-<<<<<<< HEAD
-// One thread that came late once is no reason to do without it.
-TEST(BusyBackoff, TakesNoteOfMoreThanOneLoop) {
-=======
 // A single late thread is no reason to fall back to one thread.
 TEST(BusyBackoff, TakesNoteOfMoreThanOneLoop) {
->>>>>>> w4tmp
   Machine machine;
   machine.run(50us, 40us, 50us);
   machine.run(30us, 1us, 1s);
