@@ -18,14 +18,14 @@ void VelocityFields::find(const State& state, double time, Vertices& sum) const 
 
 FieldSlopes::FieldSlopes(const System& system)
     : fields_(system),
-      of_place_(static_cast<std::size_t>(system.cloth.vertex_count()), Eigen::Matrix3d::Zero()),
-      of_velocity_(of_place_) {}
+      position_forces_(static_cast<std::size_t>(system.cloth.vertex_count()), Eigen::Matrix3d::Zero()),
+      velocity_forces_(position_forces_) {}
 
 void FieldSlopes::find(const State& state, double time) {
   moved_.x = state.x;
   moved_.v = state.v;
-  differentiate(&State::x, time, of_place_);
-  differentiate(&State::v, time, of_velocity_);
+  differentiate(&State::x, time, position_forces_);
+  differentiate(&State::v, time, velocity_forces_);
 }
 
 void FieldSlopes::differentiate(Vertices State::*part, double time, std::vector<Eigen::Matrix3d>& slopes) {

@@ -299,6 +299,43 @@ Quantities measure_rolled_sheet(const MotionOfCase& m) {
            m.motion.elastic.front() / (0.5 * m.number("D") * m.number("area") / std::pow(m.number("radius"), 2))}};
 }
 
+/// Returns the area that the triangles cover in a plan, on points half a millimetre apart [m²].
+double shadow_area(const Vertices& x, const std::vector<Triangle>& triangles) {
+  constexpr double cell = 5e-4;
+  const Eigen::RowVector2d low = x.leftCols<2>().colwise().minCoeff();
+  const Eigen::Array2i count =
+      ((x.leftCols<2>().colwise().maxCoeff() - low) / cell).transpose().cast<int>().array() + 2;
+  std::vector<char> covered(static_cast<std::size_t>(count.x()) * static_cast<std::size_t>(count.y()));
+  for (const Triangle& triangle : triangles) {
+    std::array<Eigen::Vector2d, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corner[k] = (x.row(triangle[k]).leftCols<2>() - low).transpose() / cell;
+    }
+    const Eigen::Vector2d from = corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]);
+    const Eigen::Vector2d to = corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]);
+    for (int i = static_cast<int>(std::ceil(from.x())); i <= to.x(); ++i) {
+      for (int j = static_cast<int>(std::ceil(from.y())); j <= to.y(); ++j) {
+        const Eigen::Vector2d point(i, j);
+        double least = 0, most = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Eigen::Vector2d side = corner[(k + 1) % 3] - corner[k], way = point - corner[k];
+          const double turn = side.x() * way.y() - side.y() * way.x();
+          least = std::min(least, turn);
+          most = std::max(most, turn);
+        }
+        if (least == 0 || most == 0) covered[static_cast<std::size_t>(i * count.y() + j)] = 1;
+      }
+    }
+  }
+  return static_cast<double>(std::ranges::count(covered, 1)) * cell * cell;
+}
+
+/// Returns the drape coefficient of the last state: the share of the free ring that still casts a shadow.
+Quantities measure_drape(const MotionOfCase& m) {
+  const double held = pi * std::pow(m.number("held"), 2), whole = pi * std::pow(m.number("radius"), 2);
+  return {{"coefficient", (shadow_area(m.last(), m.motion.cloth.triangles) - held) / (whole - held)}};
+}
+
 struct MeasureType {
   std::string name;
   std::function<Quantities(const MotionOfCase&)> measure;
@@ -321,6 +358,7 @@ const std::vector<MeasureType>& all_measures() {
       {"free-flight", measure_free_flight},
       {"strain-energy", measure_strain_energy},
       {"rolled-sheet", measure_rolled_sheet},
+      {"drape", measure_drape},
   };
   return measures;
 }

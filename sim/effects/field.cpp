@@ -19,12 +19,12 @@ class FieldForce final : public Force {
       : formulas_(field.acceleration),
         masses_(masses),
         constant_(!formulas_.position_forces() && !formulas_.of_time() && !formulas_.velocity_forces()),
-        of_velocity_(formulas_.velocity_forces()),
+        velocity_forces_(formulas_.velocity_forces()),
         bound_(field.stiffness_bound.value_or(formulas_.position_forces() ? std::numeric_limits<double>::infinity()
                                                                           : 0)) {}
 
   [[nodiscard]] bool constant() const override { return constant_; }
-  [[nodiscard]] bool velocity_forces() const override { return of_velocity_; }
+  [[nodiscard]] bool velocity_forces() const override { return velocity_forces_; }
   [[nodiscard]] double stiffness_bound() const override { return bound_; }
 
   void add(const State& state, double time, Vertices& force) const override {
@@ -38,7 +38,7 @@ class FieldForce final : public Force {
  private:
   FormulaField formulas_;
   Eigen::VectorXd masses_;
-  bool constant_, of_velocity_;
+  bool constant_, velocity_forces_;
   double bound_;  // infinite if unknown
 };
 

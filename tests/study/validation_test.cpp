@@ -239,6 +239,38 @@ TEST_F(ValidationRuns, OfShardsAreThoseOfTheWhole) {
   expect_usage_error([&] { merge_validation(files); }, "are not of one study");
 }
 
+/// The ring of a flat disc covers all of it, one that hangs straight down nothing, and a folded sheet its shadow once.
+TEST(Measures, DrapeIsTheShareOfTheRingThatCastsAShadow) {
+  constexpr int sides = 96;
+  constexpr double held = 0.5;
+  ObservedMotion disc;
+  disc.times = {0};
+  const auto shape = [](double radius, double depth) {
+    Vertices x(2 * sides + 1, 3);
+    x.row(2 * sides).setZero();
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2 * M_PI * i / sides;
+      x.row(i) << held * std::cos(angle), held * std::sin(angle), 0;
+      x.row(sides + i) << radius * std::cos(angle), radius * std::sin(angle), -depth;
+    }
+    return x;
+  };
+  for (int i = 0; i < sides; ++i) {
+    const int next = (i + 1) % sides;
+    disc.cloth.triangles.push_back({2 * sides, i, next});
+    disc.cloth.triangles.push_back({i, sides + i, sides + next});
+    disc.cloth.triangles.push_back({i, sides + next, next});
+  }
+  const auto coefficient = [&](double radius, double depth) {
+    disc.positions = {shape(radius, depth)};
+    return measure_motion("drape", disc, {{"radius", 1}, {"held", held}}).at("coefficient");
+  };
+  EXPECT_NEAR(coefficient(1, 0), 1, 2e-3);  // less by the polygon's sides
+  EXPECT_NEAR(coefficient(held, 0.5), 0, 2e-3);
+  EXPECT_NEAR(coefficient(std::sqrt(0.625), 0.3), 0.5, 2e-3);
+  EXPECT_NEAR(coefficient(0.25, 0.3), 0, 2e-3) << "what hangs below the support casts no other shadow";
+}
+
 TEST(Measures, ComputeWhatPositionsSay) {
   // A pendulum of 1 m that swings as cos 3t.
   ObservedMotion motion;

@@ -84,8 +84,8 @@ TEST(PatchNewton, BringsAStrayVertexBackAndLeavesTheRestAlone) {
   const Vertices before = point.x;
   const double height = point.value;
   PatchNewton patches(step.system, step.objective);
-  double moved = patches.settle(point, 1, tolerance);
-  for (int round = 1; round < 4; ++round) moved += patches.settle(point, 1, tolerance);
+  double moved = patches.minimise_patches(point, 1, tolerance);
+  for (int round = 1; round < 4; ++round) moved += patches.minimise_patches(point, 1, tolerance);
   EXPECT_GT(moved, 0.02);
   EXPECT_LT(point.value, height);
   EXPECT_EQ(point.value, step.at(point.x).value);
@@ -105,11 +105,11 @@ TEST(PatchNewton, MovesNothingWhereTooMuchOrNothingIsAboveTheTolerance) {
   PatchNewton patches(step.system, step.objective);
   Iterate far = step.at(step.cloth.positions + 0.1 * random_vertices(step.cloth.vertex_count(), 1));
   const Vertices before = far.x;
-  EXPECT_EQ(patches.settle(far, 0.5, tolerance), 0);
+  EXPECT_EQ(patches.minimise_patches(far, 0.5, tolerance), 0);
   EXPECT_TRUE(same_bits(far.x, before));
   Iterate there = step.solved<Newton>(1e-7);
   const Vertices minimum = there.x;
-  EXPECT_EQ(patches.settle(there, 1, tolerance), 0);
+  EXPECT_EQ(patches.minimise_patches(there, 1, tolerance), 0);
   EXPECT_TRUE(same_bits(there.x, minimum));
 }
 
