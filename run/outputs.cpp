@@ -89,6 +89,7 @@ void require_texture(const Scene& scene, int largest) {
 }
 
 Outputs::Outputs(const std::vector<std::string>& paths, const FilmInfo& film, bool poster, bool start_at_poster) {
+  for (const std::string& path : paths) format_of(path);  // rejects an unknown one before a sink makes a folder
   for (const std::string& path : paths) outputs_.push_back({path, make_sink(path, film)});
   pictures_.assign(static_cast<std::size_t>(std::max(0, film.expected_frames)), false);
   for (std::size_t i = 0; i < pictures_.size(); ++i) {

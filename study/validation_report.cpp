@@ -106,7 +106,7 @@ void for_answers_on(const ValidationCase& of, const ValidationCurve& curve, Use 
   }
 }
 
-/// Returns the theoretical curve between its first and last answer.
+/// Returns the theoretical curve between its first and last answer, or published values as points.
 html::ChartSeries theory_series(const ValidationCase& of, const ValidationCurve& curve) {
   html::ChartSeries theory{"theory", {}};
   theory.markers = false;
@@ -119,7 +119,16 @@ html::ChartSeries theory_series(const ValidationCase& of, const ValidationCurve&
   });
   std::ranges::stable_sort(theory.points, {}, &html::ChartPoint::x);
   const KnownCurve known = known_curve(of.name, curve.name);
-  if (known.value == nullptr || !known.continuous || !(high > low)) return theory;
+  if (known.value == nullptr) {
+    theory.name = "published";
+    theory.markers = true;
+    for (std::size_t k = 1; k < theory.points.size(); k += 2) {
+      theory.points.insert(theory.points.begin() + static_cast<std::ptrdiff_t>(k),
+                           {theory.points[k].x, not_known, {}, {}, {}});
+    }
+    return theory;
+  }
+  if (!known.continuous || !(high > low)) return theory;
   theory.points.clear();
   constexpr int parts = 80;
   for (int k = 0; k <= parts; ++k) {
@@ -151,7 +160,10 @@ html::ChartSeries found_series(const ValidationStudy& study, const ValidationCas
 
 /// Plots theory as a line and drape's answers as points.
 NamedChart master_curve(const ValidationStudy& study, const ValidationCase& of, const ValidationCurve& curve) {
-  html::Chart chart{of.title + ": " + curve.title + ". Theory is a line, drape's runs are points.",
+  const bool has_formula = known_curve(of.name, curve.name).value != nullptr;
+  html::Chart chart{fmt::format("{}: {}. {}", of.title, curve.title,
+                                has_formula ? "Theory is a line, drape's runs are points."
+                                            : "Points are published values and drape's runs."),
                     of.x_title,
                     curve.title,
                     html::Scale::linear,

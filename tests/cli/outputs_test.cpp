@@ -150,7 +150,7 @@ TEST(Outputs, OfAllScenesAreLookedAtBeforeTheFirstRuns) {
   for (const auto& [arguments, code, named] : std::vector<std::tuple<std::string, int, std::string>>{
            {"render a.toml b.toml", 2, "b.toml:15:11: the texture cut.png is damaged"},
            {"render a.toml ./b.toml --set look.texture=cut.png", 2, "--set look.texture=cut.png: the texture"},
-           {"render a.toml -o a.gif -o a.mov", 2, "unknown extension '.mov'"},
+           {"render a.toml -o deep/a.gif -o a.mov", 2, "unknown extension '.mov'"},
            {"render a.toml -o ''", 2, "has no extension"},
            {"simulate a.toml -o {frame}.objj", 2, "did you mean '.obj'?"},
            {"simulate a.toml -o {frame}.gif -o {frme}.obj", 2, "use drape render"},
@@ -163,6 +163,7 @@ TEST(Outputs, OfAllScenesAreLookedAtBeforeTheFirstRuns) {
     EXPECT_FALSE(contains(finished.text, "steps of")) << "it has begun: " << finished.text;
   }
   EXPECT_EQ(folder.file_count(), 3U);
+  EXPECT_FALSE(fs::exists(folder.path() / "deep"));
 }
 
 TEST(Outputs, OfASceneThatFailsDoNotKeepTheNextFromItsOwn) {
