@@ -1,9 +1,11 @@
 #include "study/known_answers.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "study/elastica.hpp"
 #include "study/validation_case.hpp"
@@ -93,6 +95,27 @@ std::vector<std::string> all_case_names() {
   return names;
 }
 
+// Matsudaira, Masuda, Wada and Yokura 2015, tables 1 and 2: bending rigidity [gf·cm²/cm], weight [mg/cm²], coefficient.
+TEST(DrapeMeter, HasThePublishedFabricsInSiUnits) {
+  const std::vector<std::tuple<std::string, double, double, double>> published{
+      {"cotton-broad", 0.118, 12.38, 0.829},
+      {"wool-tropical", 0.067, 16.29, 0.498},
+      {"polyester-tropical", 0.077, 11.65, 0.507},
+      {"polyester-faille", 0.019, 10.43, 0.283}};
+  const ValidationCase of = validation_cases({"drape-meter"}).front();
+  ASSERT_EQ(of.problems.size(), published.size());
+  const double g = 9.80665, overhang = of.given.at("radius") - of.given.at("held");
+  for (const auto& [name, bending, weight, coefficient] : published) {
+    const ValidationProblem& problem = of.problem(name);
+    const KnownAnswer& answer = problem.answers.front();
+    const double rigidity = bending * g * 1e-5, density = weight * 1e-2;  // 1 gf·cm = g·1e-5 N·m, 1 mg/cm² = 0.01 kg/m²
+    EXPECT_EQ(answer.value, coefficient);
+    EXPECT_NEAR(answer.x, std::cbrt(rigidity / (density * g)) / overhang, 1e-4) << name;
+    EXPECT_EQ(problem.overrides.at(0), fmt::format("cloth.density={:g}", density));
+    EXPECT_EQ(problem.overrides.at(1), fmt::format("effects.bending.rigidity={:.5g}", rigidity));
+  }
+}
+
 class EveryCase : public testing::TestWithParam<std::string> {
  protected:
   const ValidationCase case_ = validation_cases({GetParam()}).front();
@@ -109,6 +132,7 @@ TEST_P(EveryCase, SaysWhatTheoryDoes) {
   for (const ValidationProblem& problem : case_.problems) {
     for (const KnownAnswer& answer : problem.answers) {
       const KnownCurve curve = known_curve(case_.name, answer.curve);
+      if (case_.name == "drape-meter") GTEST_SKIP() << "its answers are measured, see DrapeMeter";
       ASSERT_NE(curve.value, nullptr) << answer.curve;
       EXPECT_NEAR(curve.value(answer.x), answer.value, 1e-9 * std::max(1.0, std::abs(answer.value))) << problem.name;
       ++compared;
