@@ -22,7 +22,7 @@ using test::setup;
 namespace {
 
 constexpr int cells = 92;  // enough vertices to be divided, and few more
-constexpr std::array counts{2, 3, 8};
+constexpr std::array counts{2, 3};
 constexpr int steps = 2;
 
 Cloth flat_cloth() { return test::cloth_of(make_grid(cells, cells), 1, 180, {0, cells}); }

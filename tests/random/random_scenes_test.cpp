@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Shard, RandomScenes, ::testing::Range(0, shards));
 TEST_P(RandomScenes, EndWell) {
   const test::SceneFolder folder;
   const int only = environment("DRAPE_RANDOM_SEED", -1);
-  const int count = only >= 0 ? only + 1 : environment("DRAPE_RANDOM_SCENES", 200);
+  const int count = only >= 0 ? only + 1 : environment("DRAPE_RANDOM_SCENES", 120);
   std::map<std::string, int> outcomes;
   int scenes = 0;
   for (int seed = GetParam(); seed < count; seed += shards) {
