@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "sim/collision/impact.hpp"
@@ -71,7 +72,7 @@ std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool h
 }
 
 SelfContacts::SelfContacts(const ContactTerms& terms, const Cloth& cloth, const Threads& threads)
-    : terms_(terms), cloth_(cloth), candidates_(cloth, threads) {
+    : terms_(terms), cloth_(cloth), sheet_(cloth, touch_reach * terms.distance), candidates_(cloth, threads) {
   x_.resize(static_cast<Index>(cloth.vertex_count()));
   target_ = way_ = ahead_ = x_;
 }
@@ -80,6 +81,7 @@ void SelfContacts::begin(const Vertices& x, double start, double end) {
   duration_ = end - start;
   ++steps_since_;
   for (Index i = 0; i < x_.size(); ++i) x_[i] = x.row(static_cast<Eigen::Index>(i)).transpose();
+  sheet_.begin(x_);
 }
 
 bool SelfContacts::go_as_expected() const {
@@ -117,15 +119,15 @@ double SelfContacts::rest_distance(const FeaturePair& pair) const {
 void SelfContacts::find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
                         std::vector<ContactConstraint>& contacts) {
   for (Index i = 0; i < x_.size(); ++i) target_[i] = target.row(static_cast<Eigen::Index>(i)).transpose();
-  if (!go_as_expected()) find_candidates();
+  const bool apart = sheet_.stays_apart(target_);
+  if (!apart && !go_as_expected()) find_candidates();
+  const std::span<const FeaturePair> pairs = apart ? std::span<const FeaturePair>() : candidates_.pairs();
   const auto first = static_cast<std::ptrdiff_t>(contacts.size());
-  for (const FeaturePair& pair : candidates_.pairs()) {
-    add(pair, source, is_held(held, key_of(pair, source)), contacts);
-  }
+  for (const FeaturePair& pair : pairs) add(pair, source, is_held(held, key_of(pair, source)), contacts);
   // Contacts that bear a force may have left the candidates.
   for (const ContactConstraint& contact : held) {
     const FeaturePair pair{static_cast<Feature>(contact.key.kind), contact.key.features};
-    if (!std::ranges::binary_search(candidates_.pairs(), pair)) add(pair, source, true, contacts);
+    if (!std::ranges::binary_search(pairs, pair)) add(pair, source, true, contacts);
   }
   std::ranges::sort(contacts.begin() + first, contacts.end(), {}, &ContactConstraint::key);
 }

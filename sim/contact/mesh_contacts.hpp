@@ -8,6 +8,7 @@
 #include "sim/collision/body_candidates.hpp"
 #include "sim/collision/candidates.hpp"
 #include "sim/collision/closest_point_cache.hpp"
+#include "sim/collision/monotone_sheet.hpp"
 #include "sim/contact/surface_contacts.hpp"
 #include "sim/moving_body.hpp"
 
@@ -50,6 +51,7 @@ class SelfContacts final : public ContactSource {
 
   ContactTerms terms_;
   const Cloth& cloth_;
+  MonotoneSheet sheet_;
   CollisionCandidates candidates_;  // for `steps_ahead_` steps at constant velocities
   double duration_ = 0;
   int steps_since_ = 0, steps_ahead_ = 0;

@@ -1,0 +1,144 @@
+#include "sim/collision/monotone_sheet.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "sim/collision/candidates.hpp"
+
+namespace drape {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+constexpr double flat = 1e-9;    // largest distance from the plane, and least turn of the outline, relative to the size
+constexpr double margin = 1.01;  // for rounding errors
+constexpr double reach = 1.5;    // search radius for close features in the flat shape, in distances
+
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Returns coordinates in the plane of the rest shape [m]; nothing if it is not flat.
+std::optional<std::vector<Vector2d>> flat_shape(const Cloth& cloth) {
+  const double size = (cloth.rest.colwise().maxCoeff() - cloth.rest.colwise().minCoeff()).norm();
+  const auto at = [&](int v) -> Point { return cloth.rest.row(v).transpose(); };
+  const Triangle& t = cloth.triangles.front();
+  const Point origin = at(t[0]), first = (at(t[1]) - origin).normalized();
+  const Point normal = first.cross(at(t[2]) - origin).normalized(), second = normal.cross(first);
+  std::vector<Vector2d> points;
+  for (int v = 0; v < cloth.vertex_count(); ++v) {
+    const Point d = at(v) - origin;
+    if (!(std::abs(normal.dot(d)) <= flat * size)) return std::nullopt;
+    points.emplace_back(first.dot(d), second.dot(d));
+  }
+  return points;
+}
+
+/// Returns true if the triangles fill one convex polygon and touch every vertex.
+bool is_convex(const std::vector<Triangle>& triangles, const std::vector<Vector2d>& points) {
+  std::map<std::array<int, 2>, int> sides;
+  std::vector<char> used(points.size());
+  double area = 0, size = 0;
+  for (const Triangle& t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      used[static_cast<std::size_t>(t[k])] = 1;
+      ++sides[{t[k], t[(k + 1) % 3]}];
+    }
+    const auto p = [&](std::size_t k) { return points[static_cast<std::size_t>(t[k])]; };
+    const double twice = cross(p(1) - p(0), p(2) - p(0));
+    if (!(twice > 0)) return false;
+    area += twice;
+    size = std::max({size, (p(1) - p(0)).norm(), (p(2) - p(0)).norm()});
+  }
+  std::map<int, int> outline;  // next vertex of each boundary vertex
+  for (const auto& [side, count] : sides) {
+    if (count > 1) return false;
+    if (!sides.contains({side[1], side[0]}) && !outline.emplace(side[0], side[1]).second) return false;
+  }
+  if (outline.empty() || std::ranges::count(used, 0) > 0) return false;
+  double enclosed = 0, turned = 0;
+  std::size_t count = 0;
+  for (int v = outline.begin()->first; count < outline.size(); ++count) {
+    const int next = outline.at(v), after = outline.at(next);
+    const auto p = [&](int i) { return points[static_cast<std::size_t>(i)]; };
+    const Vector2d in = p(next) - p(v), out = p(after) - p(next);
+    const double turn = std::atan2(cross(in, out), in.dot(out));
+    if (turn < -flat) return false;
+    turned += turn;
+    enclosed += cross(p(v), p(next));
+    v = next;
+  }
+  return std::abs(turned - 2 * M_PI) < 1e-6 && std::abs(enclosed - area) <= 1e-9 * area;
+}
+
+/// Returns the least distance in the flat shape of two features without a common vertex, or `most` if that is less [m].
+double closest_features(const Cloth& cloth, double most) {
+  std::vector<Point> rest;
+  for (int v = 0; v < cloth.vertex_count(); ++v) rest.emplace_back(cloth.rest.row(v).transpose());
+  CollisionCandidates candidates(cloth);
+  candidates.find(rest, rest, most);
+  double squared = most * most;
+  for (const FeaturePair& pair : candidates.pairs()) {
+    squared = std::min(squared, nearest(pair.feature, gather(rest, pair.vertices)).squared);
+  }
+  return std::sqrt(squared);
+}
+
+}  // namespace
+
+MonotoneSheet::MonotoneSheet(const Cloth& cloth, double distance) {
+  if (cloth.triangles.empty()) return;
+  const auto points = flat_shape(cloth);
+  if (!points || !is_convex(cloth.triangles, *points)) return;
+  least_ = margin * distance / closest_features(cloth, reach * distance);
+  if (!(least_ < 1)) return;
+  for (const Triangle& t : cloth.triangles) {
+    const auto p = [&](std::size_t k) { return (*points)[static_cast<std::size_t>(t[k])]; };
+    Matrix2d edges;
+    edges << p(1) - p(0), p(2) - p(0);
+    const Matrix2d inverse = edges.inverse();
+    triangles_.push_back({t, {inverse(0, 0), inverse(0, 1), inverse(1, 0), inverse(1, 1)}, edges.determinant() / 2});
+  }
+  projected_.resize(points->size());
+}
+
+bool MonotoneSheet::choose_plane(const std::vector<Point>& x) {
+  Eigen::Matrix<double, 3, 2> mean = Eigen::Matrix<double, 3, 2>::Zero();
+  for (const FlatTriangle& t : triangles_) {
+    const auto p = [&](std::size_t k) { return x[static_cast<std::size_t>(t.vertices[k])]; };
+    const Point first = t.area * (p(1) - p(0)), second = t.area * (p(2) - p(0));
+    mean.col(0) += t.inverse[0] * first + t.inverse[2] * second;
+    mean.col(1) += t.inverse[1] * first + t.inverse[3] * second;
+  }
+  // The rotation of the polar decomposition: with it the mean gradient is symmetric.
+  const Eigen::SelfAdjointEigenSolver<Matrix2d> squared(mean.transpose() * mean);
+  if (!(squared.eigenvalues()[0] > 1e-6 * squared.eigenvalues()[1])) return false;
+  const Eigen::Matrix<double, 3, 2> axes = mean * squared.operatorInverseSqrt();
+  first_ = axes.col(0);
+  second_ = axes.col(1);
+  return true;
+}
+
+bool MonotoneSheet::is_monotone(const std::vector<Point>& x) {
+  for (std::size_t i = 0; i < x.size(); ++i) projected_[i] = {first_.dot(x[i]), second_.dot(x[i])};
+  for (const FlatTriangle& t : triangles_) {
+    const auto& a = projected_[static_cast<std::size_t>(t.vertices[0])];
+    const auto& b = projected_[static_cast<std::size_t>(t.vertices[1])];
+    const auto& c = projected_[static_cast<std::size_t>(t.vertices[2])];
+    const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - a[0], vy = c[1] - a[1];
+    const auto& m = t.inverse;
+    const double xx = ux * m[0] + vx * m[2] - least_, yy = uy * m[1] + vy * m[3] - least_;
+    const double xy = 0.5 * (ux * m[1] + vx * m[3] + uy * m[0] + vy * m[2]);
+    if (!(xx > 0 && xx * yy > xy * xy)) return false;
+  }
+  return true;
+}
+
+void MonotoneSheet::begin(const std::vector<Point>& from) {
+  starts_apart_ = !triangles_.empty() && choose_plane(from) && is_monotone(from);
+}
+
+}  // namespace drape

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sim/cloth.hpp"
+#include "sim/collision/distance.hpp"
+
+namespace drape {
+
+/// Conservative test that a cloth cut from one flat, convex piece does not touch itself in a step.
+///
+/// Let J be the gradient of the cloth's shape, projected onto a fixed plane, with respect to the flat shape; J is
+/// constant on each triangle. If the symmetric part of J has no eigenvalue below s > 0 anywhere, then
+///   (p(a) − p(b))·(a − b) ≥ s ‖a − b‖²
+/// along the segment from b to a, which stays in the convex piece. So points at the distance r in the flat shape are at
+/// least s·r apart (a strictly monotone map). J is linear in the vertex positions: what holds at both ends of straight
+/// paths holds between them.
+class MonotoneSheet {
+ public:
+  /// @param distance at which features touch [m]
+  MonotoneSheet(const Cloth& cloth, double distance);
+
+  /// Begins a step with the vertices at `from`.
+  void begin(const std::vector<Point>& from);
+
+  /// Returns true if no two features without a common vertex come within the distance while the vertices move on
+  /// straight lines to `to`. Returns false if unknown.
+  [[nodiscard]] bool stays_apart(const std::vector<Point>& to) { return starts_apart_ && is_monotone(to); }
+
+ private:
+  /// A triangle and the inverse of its edges in the flat shape, row by row [1/m].
+  struct FlatTriangle {
+    Triangle vertices;
+    std::array<double, 4> inverse;
+    double area;
+  };
+
+  /// Finds the projection plane from the mean deformation; returns false if it is degenerate.
+  bool choose_plane(const std::vector<Point>& x);
+  [[nodiscard]] bool is_monotone(const std::vector<Point>& x);
+
+  std::vector<FlatTriangle> triangles_;  // empty if the cloth is not flat and convex
+  double least_ = 0;                     // required eigenvalue
+  bool starts_apart_ = false;            // at the start of the step
+  Point first_, second_;                 // axes of the projection
+  std::vector<std::array<double, 2>> projected_;
+};
+
+}  // namespace drape
