@@ -31,7 +31,7 @@ class Advice {
     camera();
     steps();
     for (const StartOverlap& overlap : start_overlaps(scene_.simulation)) {
-      found_.push_back(fmt::format("{}: {}", shown(scene_.file), describe(overlap)));
+      found_.push_back(fmt::format("{}: {}", shown(scene_.file), overlap_advice(overlap, scene_.simulation)));
     }
     said.insert(said.end(), found_.begin(), found_.end());
     return said;

@@ -45,8 +45,9 @@ SceneRun::SceneRun(const Scene& scene, RunOptions options, const RunArguments& a
       pause_(interruption()),
       slow_(film_extent(scene, options_).steps, needs_drawing(options_),
             [&scene](const std::string& text) { spdlog::info("{}: {}", shown(scene.file), text); }) {
-  options_.observer = &slow_;
-  if (arguments.step_by_step) options_.observer = &pause_;
+  options_.observer = &separation_;
+  separation_.tell_also(slow_);
+  if (arguments.step_by_step) separation_.tell_also(pause_);
 }
 
 void SceneRun::announce() const {
@@ -59,7 +60,7 @@ void SceneRun::announce() const {
   }
   if (!options_.recorded) {
     for (const StartOverlap& overlap : start_overlaps(scene_.simulation)) {
-      spdlog::warn("{}: {}", shown(scene_.file), describe(overlap));
+      spdlog::warn("{}: {}", shown(scene_.file), overlap_advice(overlap, scene_.simulation));
     }
   }
   if (options_.motion) {
@@ -83,6 +84,7 @@ ExitCode SceneRun::end() {
   if (common_.verbose) spdlog::debug(effect_shares(result_.statistics));
   if (!common_.quiet && (result_.statistics.steps() > 0 || options_.recorded)) {
     print_wrapped(stderr, summarize(result_) + "\n");
+    for (const std::string& line : separation_.lines()) print_wrapped(stderr, line + "\n");
   }
   for (const std::string& doubt : warnings(result_)) spdlog::warn("{}: {}", shown(scene_.file), doubt);
   return conclude();

@@ -5,6 +5,7 @@
 #include "cli/background_work.hpp"
 #include "cli/command_line.hpp"
 #include "cli/run_arguments.hpp"
+#include "cli/separation.hpp"
 #include "cli/step_by_step.hpp"
 #include "run/run_scene.hpp"
 #include "run/slow_run_warning.hpp"
@@ -40,6 +41,7 @@ class SceneRun {
   bool quiet_;
   StepByStep pause_;
   SlowRunWarning slow_;
+  Separation separation_;
   RunResult result_;
   std::optional<BackgroundWork> work_;  // last member: its destructor waits, and the others are still needed
 };

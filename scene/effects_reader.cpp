@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/nearest.hpp"
+#include "sim/start_overlap.hpp"
 
 namespace drape {
 namespace {
@@ -17,6 +18,16 @@ std::vector<const TomlValue*> tables_of(const TomlValue& value, bool repeatable)
   std::vector<const TomlValue*> tables;
   for (const TomlValue& item : *array) tables.push_back(&item);
   return tables;
+}
+
+/// Looks whether the cloth begins where an effect may not let it be.
+void check_start(const SimulationSettings& settings, std::size_t effect, const ProblemSink& problem) {
+  if (allows_overlap(settings.effects[effect])) return;
+  const auto overlap = find_overlap(settings, effect, settings.cloth.positions, 0);
+  if (!overlap || !overlap->contact) return;
+  problem("", fmt::format("the cloth begins with {}: move one of the two, or set allow_overlap = true to have them "
+                          "separated step by step",
+                          describe(StartOverlap{effect, *overlap}, settings)));
 }
 
 }  // namespace
@@ -68,11 +79,14 @@ void check_effects(const std::vector<ReadEffect>& effects, const SimulationSetti
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const ReadEffect& read = effects[i];
     if (!read.good) continue;
-    settings.effects[i].check(settings, [&](std::string_view key, const std::string& sentence) {
+    const std::size_t before = problems.count();
+    const auto add = [&](std::string_view key, const std::string& sentence) {
       problems.add(place_of(*read.table, key), key.empty()
                                                    ? fmt::format("[effects.{}]: {}", read.effect.name(), sentence)
                                                    : fmt::format("{}: {}", key, sentence));
-    });
+    };
+    settings.effects[i].check(settings, add);
+    if (problems.count() == before) check_start(settings, i, add);
   }
 }
 

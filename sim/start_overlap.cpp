@@ -5,74 +5,206 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/keys.hpp"
+#include "sim/collision/intersection.hpp"
 #include "sim/collision/placed_mesh.hpp"
-#include "sim/make_system.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
 namespace {
 
-/// Visitor that records the depth of points inside a shape [m].
-struct DepthIn {
-  const Vertices& x;
-  const std::vector<int>& vertices;
-  StartOverlap& overlap;
+/// Returns true if a sorted list has one of the vertices of an edge or a triangle.
+template <class Vertices>
+bool has_any(const std::vector<int>& sorted, const Vertices& vertices) {
+  return std::ranges::any_of(vertices, [&](int v) { return std::ranges::binary_search(sorted, v); });
+}
 
-  void operator()(const SphereShape& sphere) const {
-    overlap.kind = "sphere";
+/// Adds what of a cloth overlaps with a shape.
+class OverlapFinder {
+ public:
+  OverlapFinder(const Cloth& cloth, const Vertices& x, Overlap& overlap) : cloth_(cloth), x_(x), overlap_(overlap) {
+    for (Eigen::Index i = 0; i < x.rows(); ++i) points_.emplace_back(x.row(i).transpose());
+  }
+
+  void operator()(const SphereShape& sphere) {
     note([&](const Point& p) { return sphere.radius - (p - sphere.center).norm(); });
   }
-  void operator()(const GroundShape& ground) const {
-    overlap.kind = "ground";
+  void operator()(const GroundShape& ground) {
     note([&](const Point& p) { return ground.height - ground.normal.dot(p); });
   }
-  void operator()(const MeshShape& shape) const {
-    overlap.kind = "body";
+  void operator()(const MeshShape& shape) {
     const auto count = static_cast<int>(shape.positions.rows());
     const PlacedMesh mesh(std::make_shared<MeshTopology>(*shape.triangles, count), shape.positions);
-    if (!mesh.solid()) return;
-    note([&](const Point& p) {
-      const auto foot = mesh.find(p, 0);
-      return foot ? -foot->distance : 0;
-    });
+    if (mesh.solid()) {
+      note([&](const Point& p) {
+        const auto foot = mesh.find(p, 0);
+        return foot ? -foot->distance : 0;
+      });
+    }
+    find_across(mesh);
+  }
+  /// The cloth itself. What is pinned cannot give way, but neither can it be where it is.
+  void find_across_itself() {
+    const std::vector<Edge> edges = unique_edges(cloth_.triangles);
+    for (const Intersection& found : find_intersections(edges, cloth_.triangles, points_)) {
+      crossed_.push_back(static_cast<int>(found.triangle));
+      edges_.push_back(found.edge);
+    }
+    add_crossed();
   }
 
  private:
-  template <class Depth>
-  void note(const Depth& depth_of) const {
-    // Points on the surface, up to rounding, are not inside.
-    const double rounding = 1e-12 * std::max(1.0, x.cwiseAbs().maxCoeff());
-    for (const int i : vertices) {
-      const double depth = depth_of(x.row(i).transpose());
-      if (!(depth > rounding)) continue;
-      ++overlap.vertices;
-      overlap.depth = std::max(overlap.depth, depth);
-    }
+  /// What lies in a surface to rounding is not inside of it [m].
+  [[nodiscard]] double rounding() const { return 1e-12 * std::max(1.0, x_.cwiseAbs().maxCoeff()); }
+
+  [[nodiscard]] Point crossing_point(const Edge& edge, const Triangle& triangle) const {
+    const auto at = [&](int vertex) -> const Point& { return points_[static_cast<std::size_t>(vertex)]; };
+    const Point &from = at(edge[0]), &to = at(edge[1]), &corner = at(triangle[0]);
+    const Point normal = (at(triangle[1]) - corner).cross(at(triangle[2]) - corner);
+    return from + normal.dot(corner - from) / normal.dot(to - from) * (to - from);
   }
+
+  template <class Depth>
+  void note(const Depth& depth_of) {
+    for (int i = 0; i < cloth_.vertex_count(); ++i) {
+      if (std::ranges::binary_search(cloth_.pins, i)) continue;
+      const double depth = depth_of(points_[static_cast<std::size_t>(i)]);
+      if (!(depth > rounding())) continue;
+      overlap_.vertices.push_back(i);
+      overlap_.depth = std::max(overlap_.depth, depth);
+    }
+    const std::vector<int>& inside = overlap_.vertices;
+    for (std::size_t t = 0; t < cloth_.triangles.size(); ++t) {
+      if (has_any(inside, cloth_.triangles[t])) crossed_.push_back(static_cast<int>(t));
+    }
+    add_crossed();
+  }
+
+  void find_across(const PlacedMesh& mesh) {
+    const auto count = static_cast<int>(points_.size());
+    points_.insert(points_.end(), mesh.points().begin(), mesh.points().end());
+    std::vector<Triangle> body = mesh.topology().triangles;
+    for (Triangle& triangle : body) {
+      for (int& vertex : triangle) vertex += count;
+    }
+    const std::vector<Intersection> all = find_intersections(unique_edges(cloth_.triangles), body, points_);
+    for (std::size_t k = 0; k < all.size();) {
+      const Edge edge = all[k].edge;
+      Point middle = Point::Zero();
+      double found = 0;
+      for (; k < all.size() && all[k].edge == edge; ++k, ++found) middle += crossing_point(edge, body[all[k].triangle]);
+      if (has_any(cloth_.pins, edge)) continue;
+      // What lies on a solid meets the border of its sides.
+      const auto foot = mesh.find(middle / found, 0);
+      if (!mesh.solid() || (foot && -foot->distance > rounding())) edges_.push_back(edge);
+    }
+    for (const Intersection& found : find_intersections(unique_edges(body), cloth_.triangles, points_)) {
+      if (!has_any(cloth_.pins, cloth_.triangles[found.triangle])) {
+        crossed_.push_back(static_cast<int>(found.triangle));
+      }
+    }
+    add_crossed();
+  }
+
+  void add_crossed() {
+    std::ranges::sort(edges_);
+    for (std::size_t t = 0; t < cloth_.triangles.size() && !edges_.empty(); ++t) {
+      const Triangle& triangle = cloth_.triangles[t];
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto [low, high] = std::minmax({triangle[c], triangle[(c + 1) % 3]});
+        if (std::ranges::binary_search(edges_, Edge{low, high})) crossed_.push_back(static_cast<int>(t));
+      }
+    }
+    std::vector<int>& all = overlap_.triangles;
+    all.insert(all.end(), crossed_.begin(), crossed_.end());
+    std::ranges::sort(all);
+    all.erase(std::ranges::unique(all).begin(), all.end());
+  }
+
+  const Cloth& cloth_;
+  const Vertices& x_;
+  Overlap& overlap_;
+  std::vector<Point> points_;
+  std::vector<Edge> edges_;  // of the cloth, that pass through triangles
+  std::vector<int> crossed_;
 };
+
+std::string triangles_text(const std::vector<int>& triangles) {
+  constexpr std::size_t named = 5;
+  std::string text = fmt::format("{} triangle{} (number{} ", triangles.size(), triangles.size() == 1 ? "" : "s",
+                                 triangles.size() == 1 ? "" : "s");
+  for (std::size_t i = 0; i < std::min(named, triangles.size()); ++i) {
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", triangles[i]);
+  }
+  return text + (triangles.size() > named ? " …)" : ")");
+}
+
+System only(const SimulationSettings& settings, std::size_t effect) {
+  System system(settings.cloth, settings.step);
+  settings.effects[effect].install(system);
+  return system;
+}
+
+bool is_contact(const SimulationSettings& settings, std::size_t effect) {
+  return !only(settings, effect).contacts.empty();
+}
 
 }  // namespace
 
+bool allows_overlap(const Effect& effect) {
+  Effect copy = effect;
+  Keys keys;
+  copy.describe(keys);
+  return std::ranges::any_of(
+      keys.all(), [](const Key& key) { return key.name == "allow_overlap" && *std::get<bool*>(key.target); });
+}
+
+std::optional<Overlap> find_overlap(const SimulationSettings& settings, std::size_t effect, const Vertices& x,
+                                    double time) {
+  if (!settings.effects[effect].touches()) return std::nullopt;
+  const System system = only(settings, effect);
+  Overlap overlap{.vertices = {}, .triangles = {}, .contact = !system.contacts.empty()};
+  OverlapFinder finder(settings.cloth, x, overlap);
+  for (const Collider& collider : system.colliders_at(time)) std::visit(finder, collider);
+  if (system.colliders.empty()) finder.find_across_itself();
+  if (overlap.vertices.empty() && overlap.triangles.empty()) return std::nullopt;
+  return overlap;
+}
+
 std::vector<StartOverlap> start_overlaps(const SimulationSettings& settings) {
-  std::vector<int> vertices;
-  for (int i = 0; i < settings.cloth.vertex_count(); ++i) {
-    if (!std::ranges::binary_search(settings.cloth.pins, i)) vertices.push_back(i);
-  }
-  const std::vector<Collider> colliders = make_system(settings).colliders_at(0);
   std::vector<StartOverlap> overlaps;
-  for (std::size_t k = 0; k < colliders.size(); ++k) {
-    StartOverlap overlap{.collider = k, .kind = {}};
-    std::visit(DepthIn{settings.cloth.positions, vertices, overlap}, colliders[k]);
-    if (overlap.vertices > 0) overlaps.push_back(overlap);
+  for (std::size_t i = 0; i < settings.effects.size(); ++i) {
+    if (!settings.effects[i].touches()) continue;
+    if (is_contact(settings, i) && !allows_overlap(settings.effects[i])) continue;
+    if (auto overlap = find_overlap(settings, i, settings.cloth.positions, 0)) {
+      overlaps.push_back({i, *std::move(overlap)});
+    }
   }
   return overlaps;
 }
 
-std::string describe(const StartOverlap& overlap) {
-  return fmt::format(
-      "{} of the cloth start{} inside the {} (obstacle {} of the scene), up to {:.3g} m deep: it is "
-      "thrown out of there",
-      overlap.vertices == 1 ? "1 vertex" : fmt::format("{} vertices", overlap.vertices),
-      overlap.vertices == 1 ? "s" : "", overlap.kind, overlap.collider + 1, overlap.depth);
+std::string describe(const StartOverlap& start, const SimulationSettings& settings) {
+  const Overlap& overlap = start.overlap;
+  const std::string_view name = settings.effects[start.effect].name();
+  std::string text;
+  if (!overlap.vertices.empty()) {
+    text = fmt::format("{} {} inside the {}, up to {:.3g} m deep", overlap.vertices.size(),
+                       overlap.vertices.size() == 1 ? "vertex" : "vertices", name, overlap.depth);
+  }
+  if (overlap.triangles.empty()) return text;
+  if (!text.empty()) text += ", and ";
+  text += triangles_text(overlap.triangles);
+  if (overlap.vertices.empty())
+    text += name == "self_collision" ? " across itself" : fmt::format(" across the {}", name);
+  const Triangle& first = settings.cloth.triangles[static_cast<std::size_t>(overlap.triangles.front())];
+  Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
+  for (const int v : first) middle += settings.cloth.positions.row(v) / 3;
+  return text + fmt::format(", the first at [{:.3g}, {:.3g}, {:.3g}]", middle.x() + 0, middle.y() + 0, middle.z() + 0);
+}
+
+std::string overlap_advice(const StartOverlap& overlap, const SimulationSettings& settings) {
+  return fmt::format("the cloth begins with {}: {}", describe(overlap, settings),
+                     overlap.overlap.contact ? "they are separated step by step" : "it is thrown out of there");
 }
 
 }  // namespace drape

@@ -10,8 +10,6 @@
 namespace drape {
 namespace {
 
-using Point = Eigen::Vector3d;
-
 // Relative rounding error of a vertex that was rotated and then translated.
 constexpr double place_rounding = 8 * std::numeric_limits<double>::epsilon();
 
@@ -62,36 +60,40 @@ bool passes_through(const Point& from, const Point& to, const Point& a, const Po
 }
 
 template <class Vertex>
-Box box_of(const Vertex& vertices, const Vertices& x) {
-  Box box{x.row(vertices[0]).transpose(), x.row(vertices[0]).transpose()};
+Box box_of(const Vertex& vertices, const std::vector<Point>& points) {
+  const Point& first = points[static_cast<std::size_t>(vertices[0])];
+  Box box{first, first};
   for (const int v : vertices) {
-    box.low = box.low.cwiseMin(x.row(v).transpose());
-    box.high = box.high.cwiseMax(x.row(v).transpose());
+    box.low = box.low.cwiseMin(points[static_cast<std::size_t>(v)]);
+    box.high = box.high.cwiseMax(points[static_cast<std::size_t>(v)]);
   }
   return box;
 }
 
 }  // namespace
 
-std::optional<std::pair<Edge, Triangle>> find_intersection(const std::vector<Triangle>& triangles, const Vertices& x) {
-  const auto place = [&](int v) -> Point { return x.row(v).transpose(); };
+std::vector<Intersection> find_intersections(const std::vector<Edge>& edges, const std::vector<Triangle>& triangles,
+                                             const std::vector<Point>& points) {
+  const auto place = [&](int v) -> const Point& { return points[static_cast<std::size_t>(v)]; };
   std::vector<Box> boxes;
-  for (const Triangle& t : triangles) boxes.push_back(box_of(t, x));
+  for (const Triangle& t : triangles) boxes.push_back(box_of(t, points));
   SpatialHash hash;
   hash.build(boxes);
-  for (const Edge& edge : unique_edges(triangles)) {
-    const int i = edge[0], j = edge[1];  // clang 14 does not let lambdas capture structured bindings
-    std::optional<std::size_t> found;
-    hash.for_overlapping(box_of(edge, x), [&](int k) {
+  std::vector<Intersection> found;
+  std::vector<std::size_t> passed;
+  for (const Edge& edge : edges) {
+    const int i = edge[0], j = edge[1];  // clang 14 lets no lambda capture a structured binding
+    passed.clear();
+    hash.for_overlapping(box_of(edge, points), [&](int k) {
       const auto number = static_cast<std::size_t>(k);
       const auto& [a, b, c] = triangles[number];
       if (i == a || i == b || i == c || j == a || j == b || j == c) return;
-      if (found.value_or(number) < number) return;
-      if (passes_through(place(i), place(j), place(a), place(b), place(c))) found = number;
+      if (passes_through(place(i), place(j), place(a), place(b), place(c))) passed.push_back(number);
     });
-    if (found) return std::pair{edge, triangles[*found]};
+    std::ranges::sort(passed);
+    for (const std::size_t triangle : passed) found.push_back({edge, triangle});
   }
-  return std::nullopt;
+  return found;
 }
 
 }  // namespace drape

@@ -17,6 +17,8 @@ using Index = std::size_t;
 constexpr double impact_share = 0.5;   // least gap on the path, as a fraction of the distance at the end
 constexpr double target_slack = 0.25;  // largest deviation from the predicted end of a step, in distances
 constexpr int vertex_kind = -1;        // kind of vertex-body contacts, sorted before those of pairs
+constexpr int passed_kind = 2;         // kind of contacts that bring back features that have passed through
+constexpr int through_kind = 3;        // kind of contacts that bring edges out of a solid
 constexpr double touch_reach = 1.25;   // largest gap of touching features, in distances
 constexpr int most_steps_ahead = 8;    // steps that one search covers
 constexpr double resolved = 1e-9;      // least length of a difference with a direction, as a fraction of the distance
@@ -40,6 +42,27 @@ ContactKey key_of(const FeaturePair& pair, int source) {
 bool is_held(const std::vector<ContactConstraint>& held, const ContactKey& key) {
   const auto at = std::ranges::lower_bound(held, key, {}, &ContactConstraint::key);
   return at != held.end() && at->key == key;
+}
+
+/// The triangles of a body among points of which those of the cloth are the first.
+std::vector<Triangle> numbered_after(int cloth_count, std::vector<Triangle> triangles) {
+  for (Triangle& triangle : triangles) {
+    for (int& vertex : triangle) vertex += cloth_count;
+  }
+  return triangles;
+}
+
+/// How far what has passed through a triangle is from it at the start of a step: negative [m].
+double passed_distance(const Entanglement::Passed& passed, const std::vector<Point>& x) {
+  return passed.normal.dot(x[Index(passed.vertex)] - x[Index(passed.triangle[0])]);
+}
+
+std::array<double, 4> passed_weights(const Entanglement::Passed& passed) {
+  return {1, -passed.weights[0], -passed.weights[1], -passed.weights[2]};
+}
+
+std::array<int, 4> passed_vertices(const Entanglement::Passed& passed) {
+  return {passed.vertex, passed.triangle[0], passed.triangle[1], passed.triangle[2]};
 }
 
 }  // namespace
@@ -75,6 +98,7 @@ SelfContacts::SelfContacts(const ContactTerms& terms, const Cloth& cloth, const 
     : terms_(terms), cloth_(cloth), sheet_(cloth, touch_reach * terms.distance), candidates_(cloth, threads) {
   x_.resize(static_cast<Index>(cloth.vertex_count()));
   target_ = way_ = ahead_ = x_;
+  if (terms.separate) entanglement_.emplace(std::vector<std::vector<Triangle>>{cloth.triangles}, x_.size(), cloth.pins);
 }
 
 void SelfContacts::begin(const Vertices& x, double start, double end) {
@@ -82,6 +106,7 @@ void SelfContacts::begin(const Vertices& x, double start, double end) {
   ++steps_since_;
   for (Index i = 0; i < x_.size(); ++i) x_[i] = x.row(static_cast<Eigen::Index>(i)).transpose();
   sheet_.begin(x_);
+  if (entanglement_) entanglement_->find(x_);
 }
 
 bool SelfContacts::go_as_expected() const {
@@ -127,12 +152,14 @@ void SelfContacts::find(const Vertices& target, int source, const std::vector<Co
   // Contacts that bear a force may have left the candidates.
   for (const ContactConstraint& contact : held) {
     const FeaturePair pair{static_cast<Feature>(contact.key.kind), contact.key.features};
-    if (!std::ranges::binary_search(pairs, pair)) add(pair, source, true, contacts);
+    if (contact.key.kind != passed_kind && !std::ranges::binary_search(pairs, pair)) add(pair, source, true, contacts);
   }
+  if (entanglement_) bring_back(source, contacts);
   std::ranges::sort(contacts.begin() + first, contacts.end(), {}, &ContactConstraint::key);
 }
 
 void SelfContacts::add(const FeaturePair& pair, int source, bool held, std::vector<ContactConstraint>& contacts) const {
+  if (entanglement_ && entanglement_->any_astray(pair.vertices)) return;
   const FourPoints from = gather(x_, pair.vertices), to = gather(target_, pair.vertices);
   if (!held && kept_apart(pair.feature, from, to, terms_.distance)) return;
   const double before = std::sqrt(nearest(pair.feature, from).squared);
@@ -155,6 +182,22 @@ void SelfContacts::add(const FeaturePair& pair, int source, bool held, std::vect
   contacts.push_back(contact);
 }
 
+void SelfContacts::bring_back(int source, std::vector<ContactConstraint>& contacts) const {
+  for (const Entanglement::Passed& passed : entanglement_->passed()) {
+    ContactConstraint contact;
+    contact.key = {source, passed_kind, passed_vertices(passed)};
+    contact.count = 4;
+    contact.vertices = passed_vertices(passed);
+    contact.weights = passed_weights(passed);
+    contact.normal = passed.normal;
+    contact.offset = contact.carried = Eigen::Vector3d::Zero();
+    contact.start = Eigen::Vector3d::Zero();
+    for (Index i = 0; i < 4; ++i) contact.start += contact.weights[i] * x_[Index(contact.vertices[i])];
+    contact.distance = distance_at_end(passed_distance(passed, x_), terms_.distance, duration_);
+    contacts.push_back(contact);
+  }
+}
+
 BodyContacts::BodyContacts(std::shared_ptr<const MovingBody> body, const ContactTerms& terms, const Cloth& cloth,
                            const Threads& threads)
     : body_(std::move(body)),
@@ -167,6 +210,10 @@ BodyContacts::BodyContacts(std::shared_ptr<const MovingBody> body, const Contact
       start_feet_(feet_) {
   x_.resize(static_cast<Index>(cloth_count_) + end_.mesh->points().size());
   target_ = x_;
+  if (!terms.separate) return;
+  std::vector<Triangle> triangles = numbered_after(cloth_count_, body_->topology().triangles);
+  entanglement_.emplace(std::vector{cloth.triangles, std::move(triangles)}, x_.size(), cloth.pins);
+  inside_.assign(Index(cloth_count_), 0);
 }
 
 void BodyContacts::begin(const Vertices& x, double start, double end) {
@@ -178,6 +225,93 @@ void BodyContacts::begin(const Vertices& x, double start, double end) {
   for (int i = 0; i < cloth_count_; ++i) x_[Index(i)] = start_.pose.in(x.row(i).transpose());
   std::ranges::copy(start_.mesh->points(), x_.begin() + cloth_count_);
   std::ranges::copy(end_.mesh->points(), target_.begin() + cloth_count_);
+  if (entanglement_) find_astray();
+}
+
+void BodyContacts::find_astray() {
+  entanglement_->find(x_);
+  if (!start_.mesh->solid()) return;
+  for (Index i = 0; i < inside_.size(); ++i) {
+    ClosestPoint foot;
+    inside_[i] = start_feet_.find(*start_.mesh, i, x_[i], foot) && foot.distance < 0 ? 1 : 0;
+  }
+  find_through();
+}
+
+void BodyContacts::find_through() {
+  through_.clear();
+  const auto crossings = entanglement_->crossings();
+  for (Index k = 0; k < crossings.size();) {
+    const Edge edge = crossings[k].edge;
+    const Point &from = x_[Index(edge[0])], &to = x_[Index(edge[1])];
+    double share = 0, count = 0;
+    for (; k < crossings.size() && crossings[k].edge == edge; ++k, ++count) {
+      const Triangle& t = crossings[k].triangle;
+      const Point& corner = x_[Index(t[0])];
+      const Point normal = (x_[Index(t[1])] - corner).cross(x_[Index(t[2])] - corner);
+      share += normal.dot(corner - from) / normal.dot(to - from);
+    }
+    share /= count;
+    if (edge[1] >= cloth_count_ || inside_[Index(edge[0])] != 0 || inside_[Index(edge[1])] != 0) continue;
+    const auto foot = start_.mesh->find(from + share * (to - from), 0);
+    if (foot && foot->distance < 0) through_.push_back({edge, share, *foot});
+  }
+}
+
+void BodyContacts::bring_out(int source, std::vector<ContactConstraint>& contacts) const {
+  for (const Through& through : through_) {
+    const Triangle& t = body_->topology().triangles[Index(through.foot.triangle)];
+    Point from = Point::Zero(), to = Point::Zero();
+    for (Index c = 0; c < 3; ++c) {
+      const auto corner = Index(cloth_count_ + t[c]);
+      from += through.foot.weights[static_cast<Eigen::Index>(c)] * start_.pose.out(x_[corner]);
+      to += through.foot.weights[static_cast<Eigen::Index>(c)] * end_.pose.out(target_[corner]);
+    }
+    ContactConstraint contact;
+    contact.key = {source, through_kind, {through.edge[0], through.edge[1], -1, -1}};
+    contact.count = 2;
+    contact.vertices = {through.edge[0], through.edge[1], 0, 0};
+    contact.weights = {1 - through.share, through.share, 0, 0};
+    contact.normal = end_.pose.turn * through.foot.normal;
+    contact.offset = -to;
+    contact.carried = from - to;
+    contact.start = contact.gather(*world_) - from;
+    contact.distance = distance_at_end(through.foot.distance, kept_part * terms_.distance, duration_);
+    contacts.push_back(contact);
+  }
+}
+
+bool BodyContacts::is_astray(const FeaturePair& pair) const {
+  if (!entanglement_) return false;
+  const std::array<int, 4>& vertices = pair.vertices;
+  const auto passes = [&](Index i, Index j) {
+    const auto [low, high] = std::minmax({vertices[i], vertices[j]});
+    return std::ranges::binary_search(through_, Edge{low, high}, {}, &Through::edge);
+  };
+  const bool edges = pair.feature == Feature::edge_edge;
+  if (passes(2, 3) || (edges ? passes(0, 1) : passes(1, 2) || passes(1, 3))) return true;
+  const bool solid = start_.mesh->solid();
+  return std::ranges::any_of(vertices, [&](int vertex) {
+    if (solid && vertex < cloth_count_) return inside_[Index(vertex)] != 0;
+    return entanglement_->is_astray(vertex);
+  });
+}
+
+void BodyContacts::bring_back(int source, std::vector<ContactConstraint>& contacts) const {
+  for (const Entanglement::Passed& passed : entanglement_->passed()) {
+    const std::array<int, 4> vertices = passed_vertices(passed);
+    // What is inside of a solid is brought out by the nearest way.
+    const auto by_itself = [&](int vertex) {
+      return vertex < cloth_count_ && (vertex == passed.vertex || inside_[Index(vertex)] != 0);
+    };
+    if (start_.mesh->solid() && std::ranges::any_of(vertices, by_itself)) continue;
+    ContactConstraint contact = make(vertices, passed_weights(passed), passed.normal);
+    contact.key = {source, passed_kind, vertices};
+    contact.distance = distance_at_end(passed_distance(passed, x_), kept_part * terms_.distance, duration_);
+    contact.friction = contact.restitution = 0;
+    contacts.push_back(contact);
+  }
+  bring_out(source, contacts);
 }
 
 bool BodyContacts::is_clear(const Vertices& target) const {
@@ -210,6 +344,7 @@ void BodyContacts::find(const Vertices& target, int source, const std::vector<Co
   find_vertices(target, source, held, contacts);
   const auto first = static_cast<std::ptrdiff_t>(contacts.size());
   find_pairs(source, held, contacts);
+  if (entanglement_) bring_back(source, contacts);
   std::ranges::sort(contacts.begin() + first, contacts.end(), {}, &ContactConstraint::key);
   leave_wrong_sides(contacts, before, first);
 }
@@ -235,6 +370,7 @@ void BodyContacts::find_vertices(const Vertices&, int source, const std::vector<
     const ContactKey key{source, vertex_kind, {i, -1, -1, -1}};
     while (known != held.end() && known->key < key) ++known;
     const bool bears = known != held.end() && known->key == key;
+    if (entanglement_ && !start_.mesh->solid() && entanglement_->is_astray(i)) continue;
     ClosestPoint foot;
     if (!feet_.find(*end_.mesh, Index(i), target_[Index(i)], foot)) {
       if (!bears) continue;
@@ -260,6 +396,7 @@ void BodyContacts::find_pairs(int source, const std::vector<ContactConstraint>& 
   for (const BodyPair& met : candidates_.pairs()) {
     const FeaturePair& pair = met.pair;
     const ContactKey key{source, static_cast<int>(pair.feature), pair.vertices};
+    if (is_astray(pair)) continue;
     const FourPoints from = gather(x_, pair.vertices), to = gather(target_, pair.vertices);
     const double before = std::sqrt(met.before.squared);
     const double distance = distance_at_end(before, kept, duration_);

@@ -8,6 +8,7 @@
 #include "sim/collision/body_candidates.hpp"
 #include "sim/collision/candidates.hpp"
 #include "sim/collision/closest_point_cache.hpp"
+#include "sim/collision/entanglement.hpp"
 #include "sim/collision/monotone_sheet.hpp"
 #include "sim/contact/surface_contacts.hpp"
 #include "sim/moving_body.hpp"
@@ -46,13 +47,16 @@ class SelfContacts final : public ContactSource {
   void find_candidates();
   /// Appends the contact of a pair, if there is one.
   void add(const FeaturePair& pair, int source, bool held, std::vector<ContactConstraint>& contacts) const;
+  /// Appends the contacts that bring back features that have passed through a triangle.
+  void bring_back(int source, std::vector<ContactConstraint>& contacts) const;
   /// Returns the distance of two features in the rest shape [m].
   [[nodiscard]] double rest_distance(const FeaturePair& pair) const;
 
   ContactTerms terms_;
   const Cloth& cloth_;
   MonotoneSheet sheet_;
-  CollisionCandidates candidates_;  // for `steps_ahead_` steps at constant velocities
+  CollisionCandidates candidates_;            // for `steps_ahead_` steps at constant velocities
+  std::optional<Entanglement> entanglement_;  // at the start of the step, if it is to be separated
   double duration_ = 0;
   int steps_since_ = 0, steps_ahead_ = 0;
   std::vector<Point> x_, target_, found_at_, way_, ahead_;
@@ -76,12 +80,29 @@ class BodyContacts final : public ContactSource {
   void find_vertices(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
                      std::vector<ContactConstraint>& contacts);
   void find_pairs(int source, const std::vector<ContactConstraint>& held, std::vector<ContactConstraint>& contacts);
+  /// Finds the features that begin the step on the wrong side of the body.
+  void find_astray();
+  /// Finds edges of the cloth that pass through a solid while both of their ends are outside.
+  void find_through();
+  /// Appends the contacts that bring these out.
+  void bring_out(int source, std::vector<ContactConstraint>& contacts) const;
+  /// Returns true if features include one on the wrong side.
+  [[nodiscard]] bool is_astray(const FeaturePair& pair) const;
+  /// Appends the contacts that bring back features that have passed through a triangle.
+  void bring_back(int source, std::vector<ContactConstraint>& contacts) const;
   /// Removes vertex contacts, from `begin` to `pairs`, whose normal would hold a vertex on the wrong side of a shell
   /// that it has passed through.
   static void leave_wrong_sides(std::vector<ContactConstraint>& contacts, std::ptrdiff_t begin, std::ptrdiff_t pairs);
   /// Returns the contact for a touch given in the body's coordinates.
   [[nodiscard]] ContactConstraint make(const std::array<int, 4>& vertices, const std::array<double, 4>& weights,
                                        const Point& normal) const;
+
+  /// An edge of the cloth through a solid.
+  struct Through {
+    Edge edge;
+    double share;       ///< of the way from its first to its second end, where the middle of the part inside is
+    ClosestPoint foot;  ///< of that
+  };
 
   std::shared_ptr<const MovingBody> body_;
   ContactTerms terms_;
@@ -91,6 +112,9 @@ class BodyContacts final : public ContactSource {
   ClosestPointCache feet_, start_feet_;
   double duration_ = 0;
   bool searched_ = false;
+  std::optional<Entanglement> entanglement_;   // at the start of the step, if it is to be separated
+  std::vector<char> inside_;                   // nonzero for vertices of the cloth inside at the start of the step
+  std::vector<Through> through_;               // by edge
   const Vertices* world_ = nullptr;            // positions at the start of the step
   std::vector<Point> x_, target_, found_for_;  // in the body's coordinates; cloth first, then body
 };

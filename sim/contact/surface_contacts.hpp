@@ -14,15 +14,18 @@ struct ContactTerms {
   double distance = 0;     ///< minimum distance of the features [m]
   double friction = 0;     ///< Coulomb's coefficient
   double restitution = 0;  ///< coefficient for impacts, 0 to 1
+  bool separate = false;   ///< true to separate features that begin on the wrong side, step by step
 };
 
-/// Rate at which features that start too near separate, as a fraction of the missing distance [1/s].
-inline constexpr double separation_rate = 20;
+/// Rate at which features that start too near separate, as a fraction of the missing distance [1/s], and the largest
+/// speed of it [m/s]. Both together brake by less than gravity, so that cloth at rest is not thrown up.
+inline constexpr double separation_rate = 20, separation_speed = 0.2;
 
 /// Returns the distance required at the end of a step, given the one at its start [m]. Features that are too near
 /// separate slowly, as a jump would stretch the cloth.
 inline double distance_at_end(double before, double kept, double duration) {
-  return before >= kept ? kept : before + (kept - before) * std::min(1.0, separation_rate * duration);
+  if (before >= kept) return kept;
+  return before + std::min((kept - before) * std::min(1.0, separation_rate * duration), separation_speed * duration);
 }
 
 /// Contacts of vertices with a smooth surface that moves as a whole. Surface::at(time) returns a Placed: its `center`

@@ -76,6 +76,7 @@ void Body::describe(Keys& keys) {
       "rotations", KeyframeList{{"rotate"}, &turns}, "s, degrees",
       "Angles over time about the fixed x axis, then y, then z, around its centre, on top of `rotate`. They are 0 at "
       "0 s unless given then, and interpolated one by one: 720 is two turns.");
+  describe_overlap(keys, allow_overlap);
 }
 
 void Body::check(const SimulationSettings&, const ProblemSink& problem) const {
@@ -99,7 +100,7 @@ void Body::install(System& system) const {
   const std::shared_ptr<const MovingBody> moving = body();
   const bool rests = !velocity && !orbit_period && keyframes.empty() && turns.empty() && !moving->deforms();
   system.colliders.push_back(std::make_unique<DrawnBody>(moving, thickness, rests));
-  const ContactTerms terms{thickness, friction, restitution};
+  const ContactTerms terms{thickness, friction, restitution, allow_overlap};
   system.contacts.push_back(std::make_unique<BodyContacts>(moving, terms, system.cloth, system.threads));
 }
 

@@ -48,6 +48,7 @@ struct Body {
   Interpolation interpolation = Interpolation::linear;
   std::vector<Keyframe> turns = {};     ///< angles about the fixed x axis, then y, then z, from 0 at 0 s on [degrees]
   std::optional<BodyShape> shape = {};  ///< instead of a box or a mesh, around `center`
+  bool allow_overlap = false;           ///< true: the cloth may begin inside or across, and is separated step by step
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;

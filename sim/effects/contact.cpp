@@ -11,6 +11,12 @@ void describe_friction(Keys& keys, double& friction) {
   keys.replace("response", "contact is solved for with the step, by every method: omit it");
 }
 
+void describe_overlap(Keys& keys, bool& allow_overlap) {
+  keys.add("allow_overlap", &allow_overlap, "",
+           "Whether the cloth may begin inside or across it: they are separated step by step. Otherwise that is an "
+           "error.");
+}
+
 void describe_obstacle(Keys& keys, double& friction, Key::Target restitution) {
   describe_friction(keys, friction);
   keys.add("restitution", std::move(restitution), "",

@@ -24,6 +24,7 @@ void Ground::describe(Keys& keys) {
            "Distance that the cloth keeps from the drawn surface, so that it lies on it and not in it.")
       .at_least(0);
   describe_obstacle(keys, friction, &restitution);
+  describe_overlap(keys, allow_overlap);
 }
 
 void Ground::check(const SimulationSettings&, const ProblemSink& problem) const {

@@ -16,6 +16,8 @@ struct SelfCollision {
   double thickness = 0.01;  ///< distance between layers of the cloth [m]
   double friction = 0.3;    ///< Coulomb's coefficient between layers
 
+  bool allow_overlap = false;  ///< whether the cloth may begin across itself, and is separated step by step
+
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;
   void install(System& system) const;

@@ -81,6 +81,7 @@ void Sphere::describe(Keys& keys) {
   keys.add("track", CustomValue{"file", &track}, "",
            "ASCII USD file whose first moving Mesh or Sphere it follows, position and size. The file's start time code "
            "is 0 s.");
+  describe_overlap(keys, allow_overlap);
 }
 
 void Sphere::check(const SimulationSettings& settings, const ProblemSink& problem) const {
@@ -108,6 +109,9 @@ void Sphere::check(const SimulationSettings& settings, const ProblemSink& proble
 }
 
 void Sphere::check_push(const SimulationSettings& settings, const ProblemSink& problem) const {
+  if (allow_overlap) {
+    problem("allow_overlap", "is of contact; a sphere without friction, restitution and thickness pushes: omit it");
+  }
   // Under the explicit penalty a vertex is a harmonic oscillator of frequency √k. Methods that evaluate the force at
   // the start of a step are unstable beyond h·√k = 2, however they treat the springs. Substeps chosen for an accuracy
   // or by the automatic method are short enough.

@@ -40,6 +40,7 @@ struct Sphere {
   std::vector<Keyframe> keyframes = {};           ///< positions of the centre at ascending times from 0 s on [s, m]
   Interpolation interpolation = Interpolation::linear;
   std::shared_ptr<const SphereTrack> track = {};  ///< position and, unless `radius` is given, size
+  bool allow_overlap = false;                     ///< true: the cloth may begin inside, and is separated step by step
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;

@@ -63,7 +63,12 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   if (fields_) forces.note(fields_->end());
   const bool touches = touched_ = contact_ && !contact_->contacts().empty();
   const bool held = touches && contact_->touches_obstacles();
-  if (free_ && !held) balance_momentum(system_.cloth, objective_, point_);
+  if (free_ && !held) {
+    const Iterate end = point_;
+    balance_momentum(system_.cloth, objective_, point_);
+    // A shortened step lacks the momentum of the collision that it avoids.
+    if (contact_ && !report.converged && contact_->collides(point_.x)) point_ = end;
+  }
   // The minimiser has checked a step that ended by small changes, unless it was just moved.
   const bool looked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
   if (touches && books_.gains_in_contact(point_, contact_->work(point_.x, report.converged))) {

@@ -84,6 +84,29 @@ inline Mesh level_square(double side, int cells, double height) {
   return mesh;
 }
 
+/// Makes the solves so exact that only the law remains.
+inline SimulationSettings exact(SimulationSettings settings) {
+  if (is_explicit(settings.integrator.method)) return settings;
+  settings.integrator.stop = StoppingRule::error;
+  settings.integrator.tolerance = 1e-9;
+  return settings;
+}
+
+/// Joins several sheets into one cloth.
+inline Mesh together(const std::vector<Mesh>& sheets) {
+  Mesh all;
+  for (const Mesh& sheet : sheets) {
+    const auto first = static_cast<int>(all.positions.rows());
+    all.positions.conservativeResize(first + sheet.positions.rows(), 3);
+    all.positions.bottomRows(sheet.positions.rows()) = sheet.positions;
+    for (Triangle t : sheet.triangles) {
+      for (int& v : t) v += first;
+      all.triangles.push_back(t);
+    }
+  }
+  return all;
+}
+
 /// Makes a sheet of 0.2 kg/m² from a mesh.
 inline Cloth plain_sheet(const Mesh& start, double stiffness = 180) {
   Cloth cloth = make_cloth(start, start, 1, stiffness, {});

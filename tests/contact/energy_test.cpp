@@ -1,12 +1,16 @@
 // Whole runs over all kinds of contact with static obstacles: the total energy never rises, and nothing passes through.
+// DRAPE_ENERGY_RUNS sets the number of the 1500 runs of 30×30 cells in Nightly/ObstaclesAtRest.
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "tests/contact/contact_setup.hpp"
 #include "tests/support/audited_run.hpp"
@@ -19,7 +23,6 @@ using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int cells = 12;
 constexpr double side = 1;       // of the sheets [m]
 constexpr double depth = 0.4;    // of the ground below the other obstacles [m]
 constexpr double stable = 0.01;  // largest rise, as a fraction of the cloth's available energy
@@ -27,6 +30,18 @@ enum class Obstacle { ground, sphere, box, pole, itself };
 constexpr std::array obstacles{"ground", "sphere", "box", "pole", "itself"};
 constexpr std::array steps{0.001, 0.002, 0.005, 0.01, 0.02};     // [s]
 constexpr std::array stiffnesses{18.0, 180.0, 1800.0, 18000.0};  // [N/m]
+
+/// All ways to compute a step.
+constexpr std::array nightly_methods{
+    contact_methods[0],
+    contact_methods[1],
+    contact_methods[2],
+    contact_methods[3],
+    contact_methods[4],
+    contact_methods[5],
+    NamedMethod{{Method::implicit, TimeScheme::sdirk2}, "ImplicitSdirk2"},
+    NamedMethod{{Method::liu13, TimeScheme::sdirk2}, "Liu13Sdirk2"},
+};
 
 const std::vector<Fabric>& measured_fabrics() {
   static const std::vector<Fabric> measured = [] {
@@ -37,30 +52,41 @@ const std::vector<Fabric>& measured_fabrics() {
   return measured;
 }
 
-/// One run of the set, fully determined by its number.
+/// One run of a set, fully determined by its number.
 struct Trial {
   int number;
   bool impulses = false;  ///< computed by an explicit method
+  bool nightly = false;   ///< of the large set, which has every method and scheme
 
-  [[nodiscard]] Obstacle obstacle() const { return static_cast<Obstacle>(number % 5); }
-  [[nodiscard]] double step() const { return steps[static_cast<std::size_t>((number / 5 + number) % 5)]; }
+  [[nodiscard]] int cells() const { return nightly ? 30 : 12; }
+  [[nodiscard]] Obstacle obstacle() const { return static_cast<Obstacle>(place() % 5); }
+  [[nodiscard]] double step() const {
+    return steps[static_cast<std::size_t>((nightly ? place() / 70 : number / 5 + number) % 5)];
+  }
   [[nodiscard]] const NamedMethod& method() const {
+    if (nightly)
+      return nightly_methods[static_cast<std::size_t>((place() + place() / 5 + place() / 70 + number / 350) % 8)];
     if (impulses) return contact_methods[solving_methods.size() + static_cast<std::size_t>((number + number / 5) % 2)];
     return solving_methods[static_cast<std::size_t>((number + number / 15) % 3)];
   }
-  [[nodiscard]] std::size_t material() const { return static_cast<std::size_t>(number) % 14; }
+  [[nodiscard]] std::size_t material() const { return static_cast<std::size_t>(nightly ? place() / 5 : number) % 14; }
   [[nodiscard]] std::string title() const {
     const bool fabric = material() < measured_fabrics().size();
     std::string cloth = fabric ? std::string(measured_fabrics()[material()].name)
                                : "k" + std::to_string(std::lround(stiffnesses[material() - measured_fabrics().size()]));
     std::erase(cloth, '-');
-    return "Run" + std::to_string(number) + "_" + obstacles[static_cast<std::size_t>(number % 5)] + "_" + cloth + "_" +
+    return "Run" + std::to_string(number) + "_" + obstacles[static_cast<std::size_t>(obstacle())] + "_" + cloth + "_" +
            std::to_string(std::lround(step() * 1000)) + "ms_" + method().name;
   }
+
+ private:
+  /// Its place in the large set, where 350 runs have every obstacle, material and step together: far from that of the
+  /// run before, so that few runs have much of everything.
+  [[nodiscard]] int place() const { return nightly ? 149 * number % 350 : number; }
 };
 
-Mesh folded_square(double height) {
-  Mesh mesh = level_square(side, cells, height);
+Mesh folded_square(int cells) {
+  Mesh mesh = level_square(side, cells, 0);
   const double fold = 0.1;
   for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
     const double beyond = mesh.positions(i, 0) - fold;
@@ -74,8 +100,8 @@ Mesh folded_square(double height) {
 }
 
 /// Returns the sheet in a random pose, without initial contact; folded over itself if it is its own obstacle.
-Mesh pose(Obstacle obstacle, Random& random) {
-  Mesh mesh = obstacle == Obstacle::itself ? folded_square(0) : level_square(side, cells, 0);
+Mesh pose(Obstacle obstacle, int cells, Random& random) {
+  Mesh mesh = obstacle == Obstacle::itself ? folded_square(cells) : level_square(side, cells, 0);
   const double most = obstacle == Obstacle::itself ? 0.3 : 0.5 * std::numbers::pi;
   const Vector3d axis = random_point(random).normalized();
   const Matrix3d turn = AngleAxisd(random.between(0, most), axis).toRotationMatrix();
@@ -115,10 +141,11 @@ void add_obstacle(Obstacle obstacle, Effects& effects) {
 
 SimulationSettings make(const Trial& run) {
   Random random(static_cast<std::uint64_t>(1000 + 77 * run.number));
-  const Mesh rest = level_square(side, cells, 0), start = pose(run.obstacle(), random);
+  const Mesh rest = level_square(side, run.cells(), 0), start = pose(run.obstacle(), run.cells(), random);
   SimulationSettings settings;
   settings.step = run.step();
   settings.integrator.method = run.method().method;
+  settings.integrator.scheme = run.method().scheme;
   settings.effects = {Gravity{}};
   if (run.material() < measured_fabrics().size()) {
     const Fabric& fabric = measured_fabrics()[run.material()];
@@ -134,7 +161,7 @@ SimulationSettings make(const Trial& run) {
   // A sheet strained at the start oscillates, and the energy of an explicit method with it, by a part (hω)².
   settings = in_substeps(settings);
   // The energy of an explicit method oscillates by a part of (hω)², more in an initially strained cloth.
-  if (run.impulses) settings.step /= run.obstacle() == Obstacle::itself ? 4 : 2;
+  if (run.method().is_explicit()) settings.step /= run.obstacle() == Obstacle::itself ? 4 : 2;
   return settings;
 }
 
@@ -168,8 +195,42 @@ class ObstaclesAtRest : public testing::TestWithParam<Trial> {};
 INSTANTIATE_TEST_SUITE_P(Of, ObstaclesAtRest, testing::ValuesIn(all_runs()),
                          [](const auto& trial) { return trial.param.title(); });
 
+/// The large set's runs that are asked for.
+std::vector<Trial> nightly_runs() {
+  const char* const asked = std::getenv("DRAPE_ENERGY_RUNS");
+  std::vector<Trial> all;
+  for (int i = 0; i < (asked == nullptr ? 20 : std::atoi(asked)); ++i) all.push_back({.number = i, .nightly = true});
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(Nightly, ObstaclesAtRest, testing::ValuesIn(nightly_runs()),
+                         [](const auto& trial) { return trial.param.title(); });
+
+TEST(EnergyRuns, OfTheNightCoverAllPairs) {
+  using Levels = std::array<std::size_t, 4>;
+  std::array<std::array<std::set<std::pair<std::size_t, std::size_t>>, 4>, 4> pairs;
+  for (int i = 0; i < 350; ++i) {
+    const Trial run{.number = i, .nightly = true};
+    const auto step = std::ranges::find(steps, run.step()) - steps.begin();
+    const auto method = std::ranges::find(nightly_methods, std::string_view(run.method().name),
+                                          [](const NamedMethod& m) { return std::string_view(m.name); }) -
+                        nightly_methods.begin();
+    const Levels levels{static_cast<std::size_t>(run.obstacle()), run.material(), static_cast<std::size_t>(step),
+                        static_cast<std::size_t>(method)};
+    for (std::size_t a = 0; a < 4; ++a) {
+      for (std::size_t b = 0; b < a; ++b) pairs[a][b].insert({levels[a], levels[b]});
+    }
+  }
+  constexpr Levels counts{5, 14, 5, 8};
+  for (std::size_t a = 0; a < 4; ++a) {
+    for (std::size_t b = 0; b < a; ++b) EXPECT_EQ(pairs[a][b].size(), counts[a] * counts[b]) << a << ", " << b;
+  }
+}
+
 TEST_P(ObstaclesAtRest, GiveNoEnergyAndLetNothingPass) {
   const Trial& run = GetParam();
+  if (run.nightly && run.obstacle() == Obstacle::itself && !run.method().is_explicit()) {
+    GTEST_SKIP() << "cloth that crumples on itself takes implicit methods many minutes";
+  }
   const SimulationSettings settings = make(run);
   const double all = to_give(run, settings);
   const AuditedRun audited =

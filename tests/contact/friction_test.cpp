@@ -42,14 +42,6 @@ SimulationSettings on_slope(SimulationSettings settings, const Slope& slope) {
   return settings;
 }
 
-/// Makes the solves so exact that only the law remains.
-SimulationSettings exact(SimulationSettings settings) {
-  if (is_explicit(settings.integrator.method)) return settings;
-  settings.integrator.stop = StoppingRule::error;
-  settings.integrator.tolerance = 1e-9;
-  return settings;
-}
-
 /// Returns the speed after 0.1 s [m/s].
 double creep(const SimulationSettings& settings) {
   Simulation simulation(settings);

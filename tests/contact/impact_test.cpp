@@ -59,21 +59,6 @@ TEST_P(Impact, ASheetThatFellOnTheGroundLiesStillAtTheContactDistance) {
   EXPECT_NEAR(simulation.state().x.col(2).minCoeff(), distance, 1e-5);
 }
 
-/// Joins several sheets into one cloth.
-Mesh together(const std::vector<Mesh>& sheets) {
-  Mesh all;
-  for (const Mesh& sheet : sheets) {
-    const auto first = static_cast<int>(all.positions.rows());
-    all.positions.conservativeResize(first + sheet.positions.rows(), 3);
-    all.positions.bottomRows(sheet.positions.rows()) = sheet.positions;
-    for (Triangle t : sheet.triangles) {
-      for (int& v : t) v += first;
-      all.triangles.push_back(t);
-    }
-  }
-  return all;
-}
-
 /// Makes a level square rotated about the z axis.
 Mesh turned_square(double side, int cells, double height, double angle) {
   Mesh mesh = level_square(side, cells, height);

@@ -91,6 +91,8 @@ class Writer {
     }
     if (key.name == "box") return true;
     if (key.name == "prim") return false;
+    // Of a sphere it is of contact, as which the thickness makes it.
+    if (key.name == "allow_overlap") return table != "effects.sphere" || motion % 3 == 1;
     if (table == "effects.sphere" || table == "effects.body") {
       constexpr std::array<std::string_view, 4> motions{"velocity", "orbit_period", "keyframes", "track"};
       const auto found = std::ranges::find(motions, key.name);
@@ -146,7 +148,10 @@ class Writer {
     return low + random_.below(high - low + 1);
   }
 
-  std::string value(const Key&, const bool*) { return random_.number() < 0.5 ? "true" : "false"; }
+  std::string value(const Key& key, const bool*) {
+    if (key.name == "allow_overlap" && !wild()) return "true";
+    return random_.number() < 0.5 ? "true" : "false";
+  }
   std::string value(const Key& key, const int* v) { return fmt::format("{}", whole(key, *v)); }
   std::string value(const Key& key, const std::optional<int>*) { return fmt::format("{}", whole(key, 50)); }
   std::string value(const Key& key, const double* v) { return number(within(key, *v)); }

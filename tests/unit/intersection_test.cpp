@@ -40,7 +40,13 @@ Mesh joined(Mesh mesh, const Mesh& other) {
   return mesh;
 }
 
-bool goes_through_itself(const Mesh& mesh) { return find_intersection(mesh.triangles, mesh.positions).has_value(); }
+std::vector<Intersection> intersections(const Mesh& mesh) {
+  std::vector<Point> points;
+  for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) points.emplace_back(mesh.positions.row(i).transpose());
+  return find_intersections(unique_edges(mesh.triangles), mesh.triangles, points);
+}
+
+bool goes_through_itself(const Mesh& mesh) { return !intersections(mesh).empty(); }
 
 /// Makes a flat sheet, and a spike whose tip is `depth` behind it, at (x, y).
 Mesh pierced_sheet(double x, double y, double depth) {
@@ -92,6 +98,25 @@ TEST(Intersection, IsFoundAtASideAndAtACorner) {
     const Mesh mesh = joined(make_grid(20, 20), needle);
     EXPECT_TRUE(goes_through_itself(mesh)) << tip.transpose();
     for (int i = 0; i < tries(100); ++i) EXPECT_TRUE(goes_through_itself(placed(mesh, random))) << tip.transpose();
+  }
+}
+
+// A strip that stands in a sheet, across one row of cells with two triangles each.
+TEST(Intersection, IsEveryEdgeThroughEveryTriangleOnce) {
+  Mesh strip = make_grid(1, 1);
+  strip.positions << -0.33, 0.04, -0.5, 0.37, 0.04, -0.5, -0.33, 0.04, 0.5, 0.37, 0.04, 0.5;
+  const Mesh mesh = joined(make_grid(20, 20), strip);
+  const std::vector<Intersection> found = intersections(mesh);
+  int of_strip = 0;
+  for (const Intersection& one : found) {
+    if (one.edge[0] >= 441) ++of_strip;
+  }
+  EXPECT_EQ(of_strip, 3);  // both sides and the diagonal
+  // Of the sheet: across the row at x = -0.3, -0.2 … 0.3, and the diagonals that begin at −0.3 … 0.2, and one at each
+  // end.
+  EXPECT_EQ(static_cast<int>(found.size()) - of_strip, 7 + 7);
+  for (std::size_t k = 1; k < found.size(); ++k) {
+    EXPECT_LT(std::pair(found[k - 1].edge, found[k - 1].triangle), std::pair(found[k].edge, found[k].triangle));
   }
 }
 

@@ -19,7 +19,10 @@ using Eigen::Vector3d;
 using test::least_scene;
 using test::SceneFolder;
 
-std::string with_body(const std::string& lines) { return least_scene + "[[effects.body]]\n" + lines + "\n"; }
+/// A body that may begin across the cloth.
+std::string with_body(const std::string& lines) {
+  return least_scene + "[[effects.body]]\n" + lines + "\nallow_overlap = true\n";
+}
 
 MeshShape shape_at(const Scene& scene, double time) {
   return std::get<MeshShape>(Simulation(scene.simulation).colliders(time).at(0));
@@ -105,34 +108,94 @@ TEST(SphereThickness, IsHowFarBeyondItsRadiusItPushes) {
       "scene.toml:10:13: thickness: give only one of 'scale' and 'thickness': each says how far the push reaches");
 }
 
-TEST(StartOverlap, CountsVerticesInsideAndHowDeepTheyAre) {
-  // Nine vertices at z = 0, at 0 and ±1.
-  const SceneFolder folder;
-  const auto of = [&](const std::string& effects) {
-    return start_overlaps(folder.load(least_scene + effects).simulation);
-  };
-  const auto sphere = of("[effects.sphere]\ncenter = [0, 0, -0.4]\nradius = 0.5\nscale = 3\n");
-  ASSERT_EQ(sphere.size(), 1U);
-  EXPECT_EQ(sphere[0].vertices, 1);
-  EXPECT_NEAR(sphere[0].depth, 0.1, 1e-12);
-  const auto ground = of("[effects.ground]\nheight = 0.25\n");
-  ASSERT_EQ(ground.size(), 1U);
-  EXPECT_EQ(ground[0].vertices, 9);
-  EXPECT_NEAR(ground[0].depth, 0.25, 1e-12);
-  const auto box = of("[effects.ground]\nheight = -2\n[[effects.body]]\nbox = [1, 4, 1]\ncenter = [0, 0, 0.3]\n");
-  ASSERT_EQ(box.size(), 1U);
-  EXPECT_EQ(box[0].vertices, 3);
-  EXPECT_NEAR(box[0].depth, 0.2, 1e-12);
-  EXPECT_NE(describe(box[0]).find("3 vertices of the cloth start inside the body"), std::string::npos);
-  // The contact layer and the surface are not inside.
-  EXPECT_TRUE(of("[effects.ground]\nheight = 0\n[[effects.body]]\nbox = [1, 1, 1]\ncenter = [0, 0, 0.5]\n").empty());
+/// Where the cloth of a scene overlaps with the last of its effects.
+std::optional<Overlap> overlap_of(const SceneFolder& folder, const std::string& effects,
+                                  const std::string& cloth = "") {
+  const Scene scene = folder.load((cloth.empty() ? least_scene : cloth) + effects);
+  const SimulationSettings& settings = scene.simulation;
+  return find_overlap(settings, settings.effects.size() - 1, settings.cloth.positions, 0);
 }
 
-TEST(StartOverlap, DoesNotCountPins) {
+// Nine vertices at z = 0, at 0 and ±1, in eight triangles.
+TEST(Overlap, CountsVerticesInsideAndHowDeepTheyAre) {
+  const SceneFolder folder;
+  const auto sphere = overlap_of(folder, "[effects.sphere]\ncenter = [0, 0, -0.4]\nradius = 0.5\nscale = 3\n");
+  ASSERT_TRUE(sphere);
+  EXPECT_FALSE(sphere->contact);
+  EXPECT_EQ(sphere->vertices, std::vector{4});
+  EXPECT_NEAR(sphere->depth, 0.1, 1e-12);
+  const auto ground = overlap_of(folder, "[effects.ground]\nheight = 0.25\nallow_overlap = true\n");
+  ASSERT_TRUE(ground);
+  EXPECT_TRUE(ground->contact);
+  EXPECT_EQ(ground->vertices.size(), 9U);
+  EXPECT_EQ(ground->triangles.size(), 8U);
+  EXPECT_NEAR(ground->depth, 0.25, 1e-12);
+  const auto box = overlap_of(folder, "[effects.body]\nbox = [1, 4, 1]\ncenter = [0, 0, 0.3]\nallow_overlap = true\n");
+  ASSERT_TRUE(box);
+  EXPECT_EQ(box->vertices, (std::vector{1, 4, 7}));
+  EXPECT_EQ(box->triangles.size(), 8U);
+  EXPECT_NEAR(box->depth, 0.2, 1e-12);
+}
+
+TEST(Overlap, IsNeitherASurfaceNorTheLayerAboveIt) {
+  const SceneFolder folder;
+  EXPECT_FALSE(overlap_of(folder, "[effects.ground]\nheight = 0\n"));
+  EXPECT_FALSE(overlap_of(folder, "[effects.body]\nbox = [1, 1, 1]\ncenter = [0, 0, 0.5]\n"));
+  EXPECT_FALSE(overlap_of(folder, "[effects.sphere]\ncenter = [0, 0, -1]\nradius = 0.95\nfriction = 0.2\n"));
+}
+
+// A pole through the middle of a triangle has no vertex of the cloth inside, nor has the cloth an edge in it.
+TEST(Overlap, IsAlsoWhereABodyGoesThroughATriangle) {
+  const SceneFolder folder;
+  const std::string pole = "box = [0.1, 0.1, 2]\ncenter = [0.8, 0.6, 0]\n";
+  const auto through = overlap_of(folder, "[effects.body]\nallow_overlap = true\n" + pole);
+  ASSERT_TRUE(through);
+  EXPECT_TRUE(through->vertices.empty());
+  EXPECT_EQ(through->triangles.size(), 1U);
+  const auto shell = overlap_of(folder,
+                                "[effects.body]\nallow_overlap = true\nplane = { width = 0.1, depth = 4 }\nrotate = "
+                                "[0, 90, 0]\ncenter = [0.5, 0, 0]\n");
+  ASSERT_TRUE(shell);
+  EXPECT_EQ(shell->triangles.size(), 4U);
+}
+
+TEST(Overlap, IsNotWhereAPinHoldsTheCloth) {
   const SceneFolder folder;
   const std::string pinned = "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 10\npins = [4]\n[time]\nstep = 0.01\n";
-  const Scene scene = folder.load(pinned + "[effects.sphere]\ncenter = [0, 0, 0]\nradius = 0.5\n");
-  EXPECT_TRUE(start_overlaps(scene.simulation).empty());
+  EXPECT_FALSE(overlap_of(folder, "[effects.sphere]\ncenter = [0, 0, 0]\nradius = 0.5\nfriction = 0.1\n", pinned));
+  EXPECT_FALSE(overlap_of(folder, "[effects.body]\nbox = [0.1, 0.1, 1]\n", pinned));
+}
+
+TEST(StartOverlap, IsAnErrorThatNamesTheTriangles) {
+  const SceneFolder folder;
+  EXPECT_EQ(folder.problems(least_scene + "[effects.ground]\nheight = 0.25\n"),
+            "scene.toml:6:1: [effects.ground]: the cloth begins with 9 vertices inside the ground, up to 0.25 m deep, "
+            "and 8 triangles (numbers 0, 1, 2, 3, 4 …), the first at [-0.667, -0.667, 0]: move one of the two, or set "
+            "allow_overlap = true to have them separated step by step");
+  EXPECT_EQ(folder.problems(least_scene + "[effects.body]\nbox = [0.1, 0.1, 2]\ncenter = [0.8, 0.6, 0]\n"),
+            "scene.toml:6:1: [effects.body]: the cloth begins with 1 triangle (number 7) across the body, the first at "
+            "[0.667, 0.667, 0]: move one of the two, or set allow_overlap = true to have them separated step by step");
+  const std::string sphere = "[effects.sphere]\ncenter = [0, 0, 0]\nradius = 0.5\n";
+  EXPECT_NE(folder.problems(least_scene + sphere + "friction = 0.1\n").find("1 vertex inside the sphere"),
+            std::string::npos);
+  EXPECT_EQ(start_overlaps(folder.load(least_scene + sphere).simulation).size(), 1U);
+  EXPECT_EQ(
+      start_overlaps(folder.load(least_scene + sphere + "friction = 0.1\nallow_overlap = true\n").simulation).size(),
+      1U);
+  EXPECT_EQ(folder.problems(least_scene + sphere + "allow_overlap = true\n"),
+            "scene.toml:9:17: allow_overlap: is of contact; a sphere without friction, restitution and thickness "
+            "pushes: omit it");
+}
+
+TEST(StartOverlap, OfAClothWithItselfIsAnError) {
+  const SceneFolder folder;
+  folder.write("pierced.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 -1\nv 0.2 0.3 1\nv 0.3 0.2 1\nf 1 2 3\nf 4 5 6\n");
+  const std::string cloth = "[cloth]\nmesh = { file = \"pierced.obj\" }\nstiffness = 10\n[time]\nstep = 0.01\n";
+  EXPECT_EQ(folder.problems(cloth + "[effects.self_collision]\n"),
+            "scene.toml:6:1: [effects.self_collision]: the cloth begins with 2 triangles (numbers 0, 1) across itself, "
+            "the first at [0.333, 0.333, 0]: move one of the two, or set allow_overlap = true to have them separated "
+            "step by step");
+  EXPECT_EQ(folder.problems(cloth + "[effects.self_collision]\nallow_overlap = true\n"), "(no error)");
 }
 
 }  // namespace

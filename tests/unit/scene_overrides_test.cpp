@@ -84,7 +84,7 @@ TEST(SceneOverrides, MustSayWhichOfSeveralTables) {
   EXPECT_EQ(folder.problems(one_sphere, {"effects.sphere.1.radius=2"}),
             "--set effects.sphere.1.radius=2: unknown key '1' in [effects.sphere]; the keys are 'center', 'radius', "
             "'scale', 'thickness', 'friction', 'restitution', 'stiffness', 'velocity', 'orbit_period', "
-            "'orbit_center', 'orbit_axis', 'keyframes', 'interpolation', 'track'");
+            "'orbit_center', 'orbit_axis', 'keyframes', 'interpolation', 'track', 'allow_overlap'");
 }
 
 TEST(SceneOverrides, AreCheckedLikeTheFile) {

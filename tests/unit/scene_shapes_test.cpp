@@ -157,7 +157,7 @@ TEST(BodyShapes, AreNamedInScenes) {
   for (const std::string line : {"cylinder = { radius = 0.2, height = 1 }", "capsule = { radius = 0.2, height = 1 }",
                                  "cone = { radius = 0.2, height = 1, top = 0.1 }", "plane = { width = 1, depth = 2 }",
                                  "sphere = { radius = 0.2 }", "sphere = { radius = 0.2, segments = 16 }"}) {
-    EXPECT_EQ(folder.problems(body(line)), "(no error)") << line;
+    EXPECT_EQ(folder.problems(body(line + "\ncenter = [0, 0, -2]")), "(no error)") << line;
   }
   EXPECT_EQ(folder.problems(body("")),
             "scene.toml:4:1: missing key 'box', 'file', 'cylinder', 'capsule', 'cone', "
@@ -181,7 +181,7 @@ TEST(BodyShapes, BelongToTheMotion) {
   const auto tables = [&](const std::string& radius) {
     std::string text;
     for (const SceneValue& value :
-         folder.load(test::with("effects.body", "sphere = { radius = " + radius + " }")).tables) {
+         folder.load(test::with("effects.body", "sphere = { radius = " + radius + " }\ncenter = [0, 0, -2]")).tables) {
       text += value.key + "=" + value.text + "\n";
     }
     return text;
