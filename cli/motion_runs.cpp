@@ -60,7 +60,7 @@ Scene with_look(Scene scene, const Scene& other) {
   scene.caption = other.caption;
   scene.caption_place = other.caption_place;
   scene.overlay = other.overlay;
-  scene.texture_location = other.texture_place;
+  scene.texture_location = other.texture_location;
   if (scene.uvs.empty()) scene.look.texture.clear();
   return scene;
 }
