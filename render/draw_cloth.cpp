@@ -252,6 +252,7 @@ void DrawCloth::set_uniforms(const Program& program) const {
   program.set("cloth_color", linear_color(look_.color));
   program.set("line_color", linear_color(look_.line_color));
   program.set("line_width", static_cast<float>(look_.line_width));
+  if (woven_) weave_->set_uniform(program);
 }
 
 // Sorts triangles by light: reading the shadow map takes llvmpipe several times as long as all else in a pixel.
@@ -292,7 +293,6 @@ void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<cons
     const Program& program = *programs_[k];
     program.use();
     set_uniforms(program);
-    if (woven_) weave_->set_uniform(program);
     shot.set_uniforms(program);
     if (shadow != nullptr) shadow->set_uniforms(program);
     gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * counts_[k]), GL_UNSIGNED_INT,
