@@ -59,6 +59,7 @@ Subject make_drawing(const std::shared_ptr<DrawnFilm>& film, bool lit) {
   // Never deleted: benchmarks are destroyed when the process ends, after Mesa has cleaned up.
   auto* renderer = new Renderer(data_folder(), film->scene.video.size, film->view, look, settings.cloth.vertex_count(),
                                 settings.cloth.triangles, film->scene.uvs);
+  renderer->set_weave(settings.cloth.rest, film->scene.uvs);
   return {.restore = [] {},
           .run =
               [film, renderer] {

@@ -8,7 +8,6 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -138,6 +137,13 @@ double common_amplification(const std::vector<Pair>& pairs) {
   return amplification(largest);
 }
 
+/// Returns the pair with the largest difference, at which the loop begins: a page shows a GIF's first frame until it
+/// plays.
+std::size_t most_different(const std::vector<Pair>& pairs) {
+  const auto difference = [](const Pair& pair) { return summed_difference(pair.expected, pair.actual); };
+  return static_cast<std::size_t>(std::ranges::max_element(pairs, {}, difference) - pairs.begin());
+}
+
 Image side_by_side(const Pair& pair, double factor) {
   const Image difference = amplified_difference(pair.expected, pair.actual, factor);
   return montage({&pair.expected, &pair.actual, &difference}, 3, gap, gap_gray);
@@ -165,16 +171,13 @@ DifferenceAnimation difference_animation(const Scene& scene, const Golden& golde
   const std::unique_ptr<Encoder> encoder =
       std::make_unique<GifEncoder>(file, moved ? motion_rate : picture_rate, std::function<void(int, int)>());
   const double factor = common_amplification(pairs);
-  const std::set<std::size_t> printed = html::printed_moments(pairs.size());
-  std::vector<Image> stills;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    Image frame = side_by_side(pairs[i], factor);
-    encoder->add(frame);
-    if (printed.contains(i)) stills.push_back(std::move(frame));
-  }
+  std::vector<Image> frames;
+  for (const Pair& pair : pairs) frames.push_back(side_by_side(pair, factor));
+  const std::size_t worst = most_different(pairs);
+  for (std::size_t k = 0; k < frames.size(); ++k) encoder->add(frames[(worst + k) % frames.size()]);
   encoder->finish();
   std::vector<const Image*> moments;
-  for (const Image& still : stills) moments.push_back(&still);
+  for (const std::size_t i : html::printed_moments(frames.size())) moments.push_back(&frames[i]);
   made.gif = read_file(file, std::filesystem::file_size(file));
   made.stills = encode_png(montage(moments, 1, gap, gap_gray));
   return made;

@@ -43,7 +43,9 @@ FrameResult compare_frame(const GoldenFrame& golden, const std::filesystem::path
 DrawFrames::DrawFrames(const Scene& scene, const Eigen::Vector2i& size, GlBackend backend)
     : simulation_(scene.simulation),
       renderer_(data_folder(), size, View{}, scene.look, scene.simulation.cloth.vertex_count(),
-                scene.simulation.cloth.triangles, scene.uvs, backend) {}
+                scene.simulation.cloth.triangles, scene.uvs, backend) {
+  renderer_.set_weave(scene.simulation.cloth.rest, scene.uvs);
+}
 
 Image DrawFrames::draw(const View& view, int frame, double time, const Vertices& positions) {
   renderer_.look_from(view);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <stdexcept>
 
+#include "check/picture.hpp"
 #include "check/scene_charts.hpp"
 #include "core/text.hpp"
 #include "html/chart.hpp"
@@ -37,9 +40,29 @@ std::string describe(const FrameResult& frame) {
                      plural(d.pixels, "pixel"), 100 * d.fraction, d.largest_channel, d.max_flip, d.mean_flip);
 }
 
+/// Returns the index of the frame whose picture differs most from the first one's: most motions begin with a flat
+/// cloth.
+std::size_t most_telling(const std::vector<FrameResult>& frames, const std::array<int, 2>& size) {
+  std::size_t telling = 0;
+  std::int64_t most = 0;
+  try {
+    const auto picture = [&](const FrameResult& frame) { return decode_png(frame.expected, {size[0], size[1]}); };
+    const Image first = picture(frames.at(0));
+    for (std::size_t i = 1; i < frames.size(); ++i) {
+      const std::int64_t differs = summed_difference(picture(frames[i]), first);
+      if (differs <= most) continue;
+      most = differs;
+      telling = i;
+    }
+  } catch (const std::invalid_argument&) {  // a damaged picture, from a shard
+  }
+  return telling;
+}
+
 Markup viewer(const SceneResult& scene, const Comparison& comparison, const std::string& id) {
   std::vector<html::ComparedPictures> moments;
-  std::size_t shown = 0;
+  std::size_t shown =
+      comparison.first_bad_frame || comparison.frames.empty() ? 0 : most_telling(comparison.frames, scene.size);
   for (const FrameResult& frame : comparison.frames) {
     html::ComparedPictures moment;
     moment.name = fmt::format("{}", frame.frame);

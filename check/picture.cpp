@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <numeric>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -91,6 +92,11 @@ Image amplified_difference(const Image& expected, const Image& actual, double fa
     image.pixels[i] = static_cast<std::uint8_t>(std::lround(std::min(value, 255.0)));
   }
   return image;
+}
+
+std::int64_t summed_difference(const Image& a, const Image& b) {
+  return std::transform_reduce(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), std::int64_t{0}, std::plus<>(),
+                               [](int x, int y) { return std::abs(x - y); });
 }
 
 double amplification(const PictureDifference& difference) {

@@ -29,6 +29,9 @@ double covered_part(const std::vector<PixelRectangle>& rectangles, const Eigen::
 /// Returns the absolute difference of each channel times a factor, at most 255.
 Image amplified_difference(const Image& expected, const Image& actual, double factor);
 
+/// Returns the sum of all absolute differences of channels of two pictures of the same size.
+std::int64_t summed_difference(const Image& a, const Image& b);
+
 /// Returns the factor that makes the largest difference white; 1 if there is none.
 double amplification(const PictureDifference& difference);
 

@@ -85,6 +85,7 @@ std::string command_line(const CompareArguments& arguments) {
   for (const std::string& path : arguments.options.outputs) text += " -o " + shell_word(path);
   if (!arguments.grid.empty()) text += " --grid " + arguments.grid;
   if (arguments.options.difference) text += " --difference";
+  if (arguments.options.limit) text += fmt::format(" --limit {}", *arguments.options.limit);
   if (arguments.options.steps) text += fmt::format(" --steps {}", *arguments.options.steps);
   if (!arguments.frames.empty()) text += " --frames " + arguments.frames;
   for (const auto& [option, value] :
@@ -195,8 +196,13 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
       "Load each scene once with each of these values: key.path=value,value…, or a range FROM..TO/COUNT or "
       "FROM..TO/COUNTlog; repeatable"));
   sub->add_option("--grid", arguments->grid, "Layout of the panels: COLUMNSxROWS");
-  sub->add_flag("--difference", options.difference,
-                "Colour each cloth by its distance from the first, vertex by vertex");
+  CLI::Option* difference =
+      sub->add_flag("--difference", options.difference,
+                    "Colour each cloth by its distance from the first, vertex by vertex, over three decades");
+  sub->add_option("--limit", options.limit,
+                  "Distance of the last colour of --difference [m]; by default one that 95 % of the cloth stays below")
+      ->check(number_in({.minimum = 0, .minimum_excluded = true}))
+      ->needs(difference);
   sub->add_option("--sheet", arguments->sheet, sheet_help);
   add_file_limit(*sub, arguments->max_size, arguments->keep);
   sub->add_option("--steps", options.steps, "Simulate this many steps instead of the scenes' durations")

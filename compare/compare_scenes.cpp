@@ -15,6 +15,7 @@
 #include "output/contact_sheet.hpp"
 #include "output/motion_packer.hpp"
 #include "output/png_encoder.hpp"
+#include "output/poster_frame.hpp"
 #include "output/registry.hpp"
 #include "render/view.hpp"
 #include "run/outputs.hpp"
@@ -61,10 +62,11 @@ class Comparison {
         first_(scenes.front()),
         frames_(frames_of(scenes, options)),
         matches_(match_scenes(scenes)),
-        colors_(scenes, labels(scenes, differences(scenes)), options.difference),
+        colors_(scenes, labels(scenes, differences(scenes)), options.difference, options.limit),
         layout_(layout_of(pen_, scenes, options, colors_.wanted())),
         motions_(scenes, options, look_ahead()),
-        outputs_(outputs_that(false, options), comparison_info(scenes, options)) {
+        outputs_(outputs_that(false, options), comparison_info(scenes, options)),
+        poster_(first_.simulation.cloth.triangles) {
     for (const VertexMatch& match : matches_) comparable_ = comparable_ && match.comparable;
     result_.differences = differences(scenes);
     result_.frames_wanted = frames_.count();
@@ -126,6 +128,7 @@ class Comparison {
       if (colors_.wanted() && !(options_.difference && &scene == &first_)) look.texture.clear();
       renderers_.emplace_back(data_folder(), first_.video.size, path.at(0), look, scene.simulation.cloth.vertex_count(),
                               scene.simulation.cloth.triangles, scene.uvs, options_.backend);
+      renderers_.back().set_weave(scene.simulation.cloth.rest, scene.uvs);
     }
     if (!outputs_that(true, options_).empty()) begin_players();
     if (colors_.wanted()) bar_ = colors_.bar(pen_, layout_.size().x(), layout_.text_size());
@@ -149,6 +152,7 @@ class Comparison {
     }
     if (on_page(index)) {
       moments_.push_back({time, {}});
+      poster_.see(moment.front()->positions);
       for (const Image& panel : panels) moments_.back().pictures.push_back(encode_png(panel));
     }
     add_to_players(moment);
@@ -203,7 +207,8 @@ class Comparison {
   void write_page(const std::string& path, Ending ending) {
     try {
       PartialFile file(path);
-      file.write(comparison_page(result_, moments_, bar_ ? encode_png(*bar_) : "", options_.command));
+      file.write(comparison_page(result_, moments_, static_cast<std::size_t>(poster_.index()),
+                                 bar_ ? encode_png(*bar_) : "", options_.command));
       const std::uintmax_t size = file.commit(ending);
       result_.outputs.push_back({{file.name(ending), size}});
       if (ending == Ending::complete) write_diagrams(path);
@@ -237,6 +242,7 @@ class Comparison {
   std::deque<MotionPacker> packers_;  // by motion; empty without a page
   std::optional<Image> bar_;
   std::vector<PageMoment> moments_;
+  PosterFrame poster_;  // among the page's moments, of the first motion
   CompareResult result_;
 };
 

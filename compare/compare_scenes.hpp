@@ -24,6 +24,7 @@ struct CompareOptions {
   std::vector<std::string> outputs;  ///< films, pictures and sheets as for a run; .html: a page
   int columns = 0, rows = 0;         ///< size of the grid of panels; 0: automatic
   bool difference = false;           ///< colour each cloth by its distance to the first
+  std::optional<double> limit = {};  ///< distance of the last colour [m]; absent: automatic
   std::optional<SheetGrid> sheet;    ///< frames in a .png whose path lacks {frame}; absent: the last
   std::optional<std::int64_t> steps;
   std::optional<FrameRange> frames;

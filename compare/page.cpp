@@ -17,12 +17,13 @@ namespace {
 
 using html::Markup;
 
-Markup films(const CompareResult& result, const std::vector<PageMoment>& moments, const std::string& bar) {
+Markup films(const CompareResult& result, const std::vector<PageMoment>& moments, std::size_t poster,
+             const std::string& bar) {
   std::vector<std::string> names;
   for (const ComparedMotion& motion : result.motions) names.push_back(motion.label);
   std::vector<html::FilmMoment> shown;
   for (const PageMoment& moment : moments) shown.push_back({fmt::format("t = {:.2f} s", moment.time), moment.pictures});
-  Markup content = html::film("film", names, shown);
+  Markup content = html::film("film", names, shown, poster);
   if (!bar.empty()) content += html::figure(html::picture("image/png", bar, "What the colours mean"), {});
   return html::section(2, "motions", "The motions side by side", content);
 }
@@ -142,8 +143,8 @@ std::vector<NamedChart> comparison_charts(const CompareResult& result) {
   return charts;
 }
 
-std::string comparison_page(const CompareResult& result, const std::vector<PageMoment>& moments, const std::string& bar,
-                            const std::string& command) {
+std::string comparison_page(const CompareResult& result, const std::vector<PageMoment>& moments, std::size_t poster,
+                            const std::string& bar, const std::string& command) {
   std::vector<html::Finding> found;
   for (const ComparedMotion& motion : result.motions) {
     if (!motion.divergence.empty()) found.push_back({html::Tone::bad, motion.label + ": " + motion.divergence});
@@ -160,7 +161,7 @@ std::string comparison_page(const CompareResult& result, const std::vector<PageM
   page.kind = "drape compare";
   page.heading = fmt::format("{} motions side by side", result.motions.size());
   page.introduction = html::findings(found) + html::command("Reproduce this page", command);
-  page.content = films(result, moments, bar) + players(result) +
+  page.content = films(result, moments, poster, bar) + players(result) +
                  html::section(2, "figures", "Figures", figures_table(result)) +
                  html::section(2, "differences", "Differences", differences_table(result)) +
                  html::section(2, "curves", "Over time", curves(result));

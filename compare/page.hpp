@@ -18,8 +18,9 @@ struct PageMoment {
 std::vector<NamedChart> comparison_charts(const CompareResult& result);
 
 /// Returns a self-contained page: the motions in step, their figures, and their differing keys.
-/// @param bar PNG file of the colour bar; empty: there is none
-std::string comparison_page(const CompareResult& result, const std::vector<PageMoment>& moments, const std::string& bar,
-                            const std::string& command);
+/// @param poster index of the moment shown before one is chosen
+/// @param bar    PNG file of the colour bar; empty: there is none
+std::string comparison_page(const CompareResult& result, const std::vector<PageMoment>& moments, std::size_t poster,
+                            const std::string& bar, const std::string& command);
 
 }  // namespace drape

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "overlay/caption.hpp"
 #include "overlay/color_bar.hpp"
+#include "overlay/color_map.hpp"
 #include "render/montage.hpp"
 
 namespace drape {
@@ -22,6 +23,12 @@ std::pair<const char*, double> unit_of(double length) {
   return length >= 5e-4 ? std::pair{"mm", 1e3} : std::pair{"µm", 1e6};
 }
 
+constexpr int decades = 3;  // of distances below the limit
+
+/// Returns the place of a distance on the logarithmic scale, 0 to 1.
+/// @param part the distance as a fraction of the limit
+double along_scale(double part) { return part <= 0 ? 0 : std::clamp(1 + std::log10(part) / decades, 0.0, 1.0); }
+
 /// Appends a picture of the same width below another.
 void append_below(Image& upper, const Image& lower) {
   upper.height += lower.height;
@@ -35,11 +42,12 @@ Eigen::VectorXd distances(const Frame& frame, const Frame& other, const VertexOr
   return (frame.positions - in_order(other.positions, order)).rowwise().norm();
 }
 
-PanelColors::PanelColors(const std::vector<Scene>& scenes, const std::vector<std::string>& labels, bool difference)
+PanelColors::PanelColors(const std::vector<Scene>& scenes, const std::vector<std::string>& labels, bool difference,
+                         std::optional<double> limit)
     : difference_(difference), first_(labels.front()) {
   const Look& look = scenes.front().look;
   if (difference) {
-    scale_.emplace(std::nullopt);
+    scale_.emplace(limit);
     matches_ = match_scenes(scenes);
   } else if (look.color_by) {
     for (const Scene& scene : scenes) measures_.emplace_back(*look.color_by, scene.simulation.cloth);
@@ -54,22 +62,41 @@ Eigen::VectorXd PanelColors::values(const std::vector<const Frame*>& frames, std
 
 void PanelColors::survey(const std::vector<const Frame*>& frames) {
   if (!scale_) return;
-  for (std::size_t i = 0; i < frames.size(); ++i) scale_->survey(values(frames, i));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Eigen::VectorXd numbers = values(frames, i);
+    // Equal motions, such as all at their start, have no distance that a limit could show.
+    if (difference_ && (numbers.size() == 0 || numbers.maxCoeff() == 0)) continue;
+    scale_->survey(numbers);
+  }
 }
 
 std::vector<Rgb> PanelColors::colors(const std::vector<const Frame*>& frames, std::size_t panel) const {
   // The first scene is the reference, and keeps its own look.
   if (!scale_ || (difference_ && panel == 0)) return {};
-  return scale_->colors(values(frames, panel));
+  const Eigen::VectorXd numbers = values(frames, panel);
+  if (!difference_) return scale_->colors(numbers);
+  std::vector<Rgb> colors;
+  const double limit = scale_->limit();
+  for (const double distance : numbers) colors.push_back(viridis(along_scale(distance / limit)));
+  return colors;
 }
 
 Image PanelColors::bar(Pen& pen, int width, int size) const {
-  if (!difference_) {
-    return color_bar(pen, width, size, measures_.front().title(), scale_->marks(measures_.front().factor()));
+  if (difference_) return distance_bar(pen, width, size);
+  return color_bar(pen, width, size, measures_.front().title(), scale_->marks(measures_.front().factor()));
+}
+
+Image PanelColors::distance_bar(Pen& pen, int width, int size) const {
+  const double limit = scale_->limit();
+  const auto [unit, count] = unit_of(limit);
+  std::vector<Tick> marks;
+  for (int k = decades; k >= 0; --k) {
+    const double part = std::pow(10, -k);
+    marks.push_back({along_scale(part), fmt::format("{:.4g}", limit * part * count)});
   }
-  const auto [unit, count] = unit_of(scale_->limit());
-  return color_bar(pen, width, size, fmt::format("distance from the first, {} [{}]", first_, unit),
-                   scale_->marks(count));
+  marks.front().label.insert(0, "≤ ");
+  marks.back().label.insert(0, "≥ ");
+  return color_bar(pen, width, size, fmt::format("distance from the first, {} [{}]", first_, unit), marks);
 }
 
 PanelLayout::PanelLayout(Pen& pen, const std::vector<std::string>& labels, const Eigen::Vector2i& panel, int columns,

@@ -16,9 +16,15 @@ namespace drape {
 
 /// Vertex colours in all panels of a comparison, on a common scale. They show the distance to the first scene's
 /// vertices, or the quantity in the first scene's look; without either there are none.
+///
+/// Distances have a logarithmic scale of three decades, so that small ones show beside large ones. It ends at a limit:
+/// the smallest of 1, 2 or 5 times a power of ten that 95 % of the cloth stays below in 90 % of the frames.
 class PanelColors {
  public:
-  PanelColors(const std::vector<Scene>& scenes, const std::vector<std::string>& labels, bool difference);
+  /// @param difference true to show distances
+  /// @param limit      distance of the last colour [m]; absent: automatic
+  PanelColors(const std::vector<Scene>& scenes, const std::vector<std::string>& labels, bool difference,
+              std::optional<double> limit);
 
   [[nodiscard]] bool wanted() const { return scale_.has_value(); }
   [[nodiscard]] bool needs_motion() const { return scale_ && scale_->needs_motion(); }
@@ -31,6 +37,7 @@ class PanelColors {
 
  private:
   [[nodiscard]] Eigen::VectorXd values(const std::vector<const Frame*>& frames, std::size_t panel) const;
+  [[nodiscard]] Image distance_bar(Pen& pen, int width, int size) const;
 
   bool difference_;
   std::string first_;                    // label of the first scene

@@ -23,7 +23,7 @@ Markup strips(const std::string& id, const std::vector<std::string>& moments, co
   const Markup sheets =
       element("label", element("input", {{"type", "checkbox"}, {"class", "as-sheets"}, {"autocomplete", "off"}}) +
                            " Contact sheets");
-  return element("div", {{"class", "strips"}, {"id", id}}, film_controls(id, moments, sheets) + content);
+  return element("div", {{"class", "strips"}, {"id", id}}, film_controls(id, moments, 0, sheets) + content);
 }
 
 Markup sortable_table(const Table& table) { return element("div", {{"class", "sortable"}}, html::table(table)); }

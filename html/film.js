@@ -8,8 +8,10 @@
     const said = root.querySelector("output");
     const names = [...root.querySelectorAll(".names li")].map((item) => item.textContent);
     let timer = 0;
+    let begun = false; // a moment was chosen, from which playing goes on
 
     const go = () => {
+      begun = true;
       show(Number(slider.value));
       said.textContent = names[slider.value];
       slider.setAttribute("aria-valuetext", names[slider.value]);
@@ -26,7 +28,7 @@
     play.addEventListener("click", () => {
       if (timer) return stop();
       timer = setInterval(() => {
-        slider.value = (Number(slider.value) + 1) % names.length;
+        slider.value = begun ? (Number(slider.value) + 1) % names.length : 0;
         go();
       }, interval);
       play.textContent = "Pause";

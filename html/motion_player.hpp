@@ -18,8 +18,8 @@ struct PlayedMotion {
   std::size_t vertices = 0, triangles = 0;
 };
 
-/// Returns an interactive WebGL view of a motion: it can be turned, played, and coloured by its stretch. Without WebGL
-/// 2 or scripts a sentence replaces it.
+/// Returns an interactive WebGL view of a motion: it can be turned, played, and coloured by its stretch. It shows the
+/// poster frame until a moment is chosen, and plays from the start. Without WebGL 2 or scripts a sentence replaces it.
 /// @param label name of the canvas for screen readers: "The cloth of scene 5"
 Markup motion_player(const std::string& id, const PlayedMotion& motion, const std::string& label);
 

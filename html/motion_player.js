@@ -118,7 +118,8 @@
       this.connect();
       this.makeScale();
       this.find(".mesh-lines").checked = motion.lines;
-      this.show(0);
+      this.show(motion.poster); // until it is played: most motions begin with a flat cloth
+      this.begun = false;
       root.dataset.state = "ready";
     }
 
@@ -225,7 +226,7 @@
       this.timer = 0;
       this.find(".play").textContent = on ? "Pause" : "Play";
       if (!on || !this.last) return;
-      if (this.moment >= this.last) this.moment = 0;
+      if (!this.begun || this.moment >= this.last) this.moment = 0;
       let before = performance.now();
       const tick = (now) => {
         const speed = Number(this.find(".speed").value);
@@ -239,6 +240,7 @@
 
     show(moment) {
       const { motion } = this;
+      this.begun = true;
       this.moment = moment;
       this.painter.place(moment);
       const frame = Math.round(moment);

@@ -136,6 +136,7 @@ void MotionPacker::add_first(const Frame& frame) {
   std::string bytes;
   add_mesh(film_.triangles(), x.rows(), bytes);
   add_texture(bytes);
+  poster_.emplace(film_.triangles());
   stretch_.emplace(rest, film_.triangles());
   strain_.emplace(film_.triangles(), x.rows(), 1);
   for (const Collider& collider : frame.colliders) {
@@ -179,6 +180,7 @@ void MotionPacker::add(const Frame& frame) {
                     most_frames, positions_));
   }
   ++frames_;
+  poster_->see(frame.positions);
   std::string bytes;
   meshes_.front().track.append(whole(frame.positions), bytes);
   const Eigen::VectorXd strain = (*stretch_)(frame.positions).array() - 1;
@@ -227,17 +229,18 @@ std::string MotionPacker::description() const {
   for (const Tick& mark : scale_.marks(100)) marks.push_back(fmt::format("[{:.6g}, \"{}\"]", mark.value, mark.label));
   const Camera camera = film_.camera != nullptr ? *film_.camera : Camera{};
   return fmt::format(
-      "{{\"frames\": {}, \"fps\": {}, \"time\": {}, \"seconds\": {}, \"vertices\": [{}], \"triangles\": [{}], "
+      "{{\"frames\": {}, \"poster\": {}, \"fps\": {}, \"time\": {}, \"seconds\": {}, \"vertices\": [{}], "
+      "\"triangles\": [{}], "
       "\"spheres\": {}, \"grounds\": {}, \"origin\": [{}], \"precision\": {}, \"lowest\": [{}], \"highest\": [{}], "
       "\"side\": {}, \"leastStrain\": {}, \"strainSteps\": {}, \"limit\": {}, \"scale\": [{}], \"marks\": [{}], "
       "\"cloth\": {}, \"sphere\": {}, \"body\": {}, \"ground\": {}, \"grid\": {}, \"azimuth\": {}, "
       "\"elevation\": {}, \"lines\": {}, \"textured\": {}}}",
-      frames_, film_.fps, time_, film_.seconds_per_frame, fmt::join(vertices, ", "), fmt::join(triangles, ", "),
-      spheres_, grounds_, fmt::join(origin_, ", "), precision_, fmt::join(lowest_, ", "), fmt::join(highest_, ", "),
-      patch_.side, least_strain, strain_steps, scale_.limit(), fmt::join(colors, ", "), fmt::join(marks, ", "),
-      list(look.color), list(look.sphere_color), list(look.body_color), list(look.ground_color), look.ground_grid,
-      camera.azimuth.value_or(Camera::usual_azimuth), camera.elevation.value_or(Camera::usual_elevation),
-      look.mesh_lines, !texture_.empty());
+      frames_, poster_->index(), film_.fps, time_, film_.seconds_per_frame, fmt::join(vertices, ", "),
+      fmt::join(triangles, ", "), spheres_, grounds_, fmt::join(origin_, ", "), precision_, fmt::join(lowest_, ", "),
+      fmt::join(highest_, ", "), patch_.side, least_strain, strain_steps, scale_.limit(), fmt::join(colors, ", "),
+      fmt::join(marks, ", "), list(look.color), list(look.sphere_color), list(look.body_color), list(look.ground_color),
+      look.ground_grid, camera.azimuth.value_or(Camera::usual_azimuth),
+      camera.elevation.value_or(Camera::usual_elevation), look.mesh_lines, !texture_.empty());
 }
 
 html::PlayedMotion MotionPacker::finish() {

@@ -9,6 +9,7 @@
 #include "output/collider_mesh.hpp"
 #include "output/format.hpp"
 #include "output/integer_track.hpp"
+#include "output/poster_frame.hpp"
 #include "overlay/color_scale.hpp"
 #include "sim/vertex_stretch.hpp"
 
@@ -54,6 +55,7 @@ class MotionPacker {
 
   FilmInfo film_;
   ColorScale scale_;
+  std::optional<PosterFrame> poster_;
   std::optional<VertexStretch> stretch_;
   std::optional<IntegerTrack> strain_;
   std::vector<Mesh> meshes_;  // cloth and bodies

@@ -58,6 +58,7 @@ Image draw(const Scene& scene, const PictureWishes& wishes, const Frame& frame) 
   Look look = scene.look;
   if (coloring) look.texture.clear();
   Renderer renderer(data_folder(), size, view, look, cloth.vertex_count(), cloth.triangles, scene.uvs);
+  renderer.set_weave(cloth.rest, scene.uvs);
   if (!coloring) return renderer.draw(frame);
   coloring->survey(frame);
   return renderer.draw(frame, coloring->colors(frame));

@@ -53,7 +53,8 @@ DrawCloth::DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, c
       array_(gl_),
       static_buffer_(gl_),
       dynamic_buffer_(gl_),
-      index_buffer_(gl_) {
+      index_buffer_(gl_),
+      height_(size.y()) {
   if (!uvs.empty() && uvs.size() != 3 * triangles.size()) {
     throw std::invalid_argument("a cloth needs a texture coordinate for each corner of each triangle, or none at all");
   }
@@ -219,10 +220,11 @@ void DrawCloth::upload_colors(std::span<const Rgb> colors) {
   gl_.VertexAttribPointer(color_attribute, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float), nullptr);
 }
 
-void DrawCloth::find_programs(std::size_t sphere_count, bool colored) {
-  if (programs_[0] && sphere_count_ == sphere_count && colored_ == colored) return;
+void DrawCloth::find_programs(std::size_t sphere_count, bool colored, bool woven) {
+  if (programs_[0] && sphere_count_ == sphere_count && colored_ == colored && woven_ == woven) return;
   sphere_count_ = sphere_count;
   colored_ = colored;
+  woven_ = woven;
   for (std::size_t light = 0; light < (look_.shadows ? programs_.size() : 1); ++light) {
     programs_[light] = find_program(static_cast<ClothShadow::Light>(light));
   }
@@ -239,6 +241,7 @@ const Program* DrawCloth::find_program(ClothShadow::Light light) const {
   } else if (texture_) {
     defines.emplace_back("TEXTURE");
   }
+  if (woven_) defines.emplace_back("WEAVE");
   if (look_.mesh_lines) defines.emplace_back("MESH_LINES");
   return &device_.program("cloth", defines);
 }
@@ -249,6 +252,7 @@ void DrawCloth::set_uniforms(const Program& program) const {
   program.set("cloth_color", linear_color(look_.color));
   program.set("line_color", linear_color(look_.line_color));
   program.set("line_width", static_cast<float>(look_.line_width));
+  if (woven_) weave_->set_uniform(program);
 }
 
 // Sorts triangles by light: reading the shadow map takes llvmpipe several times as long as all else in a pixel.
@@ -275,7 +279,7 @@ void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<cons
   upload_shape();
   if (occlusion_) upload_occlusion(shot);
   if (!colors.empty()) upload_colors(colors);
-  find_programs(shot.spheres.size(), !colors.empty());
+  find_programs(shot.spheres.size(), !colors.empty(), colors.empty() && weave_ && weave_->visible(shot, height_));
   counts_ = {indices_.size() / 3, 0, 0, 0};
   if (shadow != nullptr) upload_indices(*shadow);
   if (texture_) {

@@ -14,6 +14,7 @@
 #include "render/settings.hpp"
 #include "render/shot.hpp"
 #include "render/smooth_surface.hpp"
+#include "render/weave.hpp"
 #include "sim/mesh.hpp"
 
 namespace drape {
@@ -25,6 +26,11 @@ class DrawCloth {
   /// Takes the parameters of Renderer and throws its exceptions.
   DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, const std::vector<Triangle>& triangles,
             const std::vector<std::array<float, 2>>& uvs);
+
+  /// Draws a weave from now on, where it can be seen. Takes the parameters of Renderer::set_weave().
+  void set_weave(const Vertices& rest, const std::vector<std::array<float, 2>>& uvs) {
+    weave_.emplace(rest, triangles_, uvs);
+  }
 
   /// Computes the surface of the next frame to draw.
   void shape(const Frame& frame);
@@ -60,7 +66,7 @@ class DrawCloth {
   void upload_occlusion(const Shot& shot);
   void upload_colors(std::span<const Rgb> colors);
   void upload_indices(const ClothShadow& shadow);
-  void find_programs(std::size_t sphere_count, bool colored);
+  void find_programs(std::size_t sphere_count, bool colored, bool woven);
   const Program* find_program(ClothShadow::Light light) const;
   void set_uniforms(const Program& program) const;
 
@@ -84,7 +90,9 @@ class DrawCloth {
   std::array<std::size_t, 4> counts_{};       // triangles per kind of light, in the order of the index buffer
   std::array<const Program*, 4> programs_{};  // per kind of light; without shadows only the first is set
   std::size_t sphere_count_ = 0;
-  bool colored_ = false;
+  bool colored_ = false, woven_ = false;
+  std::optional<Weave> weave_;
+  int height_;  // of the picture [pixels]
 };
 
 }  // namespace drape

@@ -46,6 +46,8 @@ class Renderer::Implementation {
     }
   }
 
+  void set_weave(const Vertices& rest, const std::vector<std::array<float, 2>>& uvs) { cloth_.set_weave(rest, uvs); }
+
   void look_from(const View& view) { view_ = view; }
 
   /// @param colors colours of the vertices; empty: none
@@ -106,6 +108,10 @@ Renderer::Renderer(const std::filesystem::path& data_folder, Eigen::Vector2i siz
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+void Renderer::set_weave(const Vertices& rest, const std::vector<std::array<float, 2>>& uvs) {
+  implementation_->set_weave(rest, uvs);
+}
 
 void Renderer::look_from(const View& view) { implementation_->look_from(view); }
 

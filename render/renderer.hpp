@@ -41,6 +41,11 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
+  /// Gives the cloth a weave in all following frames, visible from near, see Weave.
+  /// @param rest positions of the flat cloth's vertices [m]
+  /// @param uvs  as in the constructor; without any there is no weave
+  void set_weave(const Vertices& rest, const std::vector<std::array<float, 2>>& uvs);
+
   /// Draws the following frames from another viewpoint.
   void look_from(const View& view);
 

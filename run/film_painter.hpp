@@ -17,7 +17,9 @@ class FilmPainter {
       : path_(path),
         annotations_(annotations),
         renderer_(data_folder(), scene.video.size, path.at(0), Annotations::look(scene),
-                  scene.simulation.cloth.vertex_count(), scene.simulation.cloth.triangles, scene.uvs, backend) {}
+                  scene.simulation.cloth.vertex_count(), scene.simulation.cloth.triangles, scene.uvs, backend) {
+    renderer_.set_weave(scene.simulation.cloth.rest, scene.uvs);
+  }
 
   [[nodiscard]] std::string description() const { return renderer_.description(); }
 

@@ -1,20 +1,19 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "output/format.hpp"
+#include "output/poster_frame.hpp"
 
 namespace drape {
 
-/// A film's poster: the first of the frames in which the cloth is bent most. Bending is the sum of the angles between
-/// neighbouring triangles, weighted by edge length.
+/// A film's poster: the picture of its PosterFrame.
 class Poster {
  public:
-  explicit Poster(const FilmInfo& film);
+  explicit Poster(const FilmInfo& film) : frames_(film.triangles()) {}
 
   void see(const Frame& frame, const Image& image);
 
@@ -23,14 +22,8 @@ class Poster {
   [[nodiscard]] int frame() const { return frame_; }
 
  private:
-  [[nodiscard]] double bend(const Vertices& x) const;
-
-  struct Hinge {
-    std::array<int, 2> edge, opposite;
-  };
-  std::vector<Hinge> hinges_;
+  PosterFrame frames_;
   std::optional<Image> image_;
-  double most_ = -1;
   int frame_ = 0;
 };
 

@@ -3,9 +3,14 @@
 #include "lighting.glsl"
 #include "shadow.glsl"
 
+#if defined(TEXTURE) || defined(WEAVE)
+in vec2 texture_position;
+#endif
+#ifdef WEAVE
+uniform vec3 weave;  // yarns in a unit of u and of v; depth of their relief
+#endif
 #ifdef TEXTURE
 uniform sampler2D cloth_texture;
-in vec2 texture_position;
 #elif defined(VERTEX_COLORS)
 in vec3 vertex_color;
 #else
@@ -44,6 +49,21 @@ float line_coverage() {
 }
 #endif
 
+#ifdef WEAVE
+// Brightness of a plain weave, 1 on average. A yarn is brightest along its middle, where it lies on top. The relief fades
+// before a yarn is too narrow for its pixels, as in a mipmap, so that it never makes moiré.
+float woven() {
+  vec2 yarn = weave.xy * texture_position;
+  float blur = max(length(dFdx(yarn)), length(dFdy(yarn)));  // [yarns/pixel]
+  vec2 wave = sin(3.14159265 * yarn);
+  vec2 across = wave * wave;
+  float along_u = across.y * (0.6 + 0.4 * across.x), along_v = across.x * (0.6 + 0.4 * across.y);
+  float light = mix(along_u, along_v, smoothstep(-0.2, 0.2, wave.x * wave.y));
+  const float mean = 0.4;
+  return 1.0 + weave.z * (1.0 - smoothstep(0.15, 1.0 / 3.0, blur)) * (light - mean);
+}
+#endif
+
 void main() {
   // Cloth has two sides; use the normal of the visible one.
   vec3 n = normalize(world_normal) * (gl_FrontFacing ? 1.0 : -1.0);
@@ -55,6 +75,9 @@ void main() {
   vec3 albedo = vertex_color;
 #else
   vec3 albedo = cloth_color;
+#endif
+#ifdef WEAVE
+  albedo *= woven();
 #endif
   if (!gl_FrontFacing) albedo *= 0.95;
 #ifdef MESH_LINES

@@ -19,7 +19,7 @@ layout(location = 6) in vec2 open_sides;  // fraction of ambient light that the 
 
 out vec3 world_position;
 out vec3 world_normal;
-#ifdef TEXTURE
+#if defined(TEXTURE) || defined(WEAVE)
 out vec2 texture_position;
 #endif
 #ifdef VERTEX_COLORS
@@ -36,7 +36,7 @@ flat out vec3 edge_line_scale;
 void main() {
   world_position = position;
   world_normal = normal;
-#ifdef TEXTURE
+#if defined(TEXTURE) || defined(WEAVE)
   texture_position = uv;
 #endif
 #ifdef VERTEX_COLORS

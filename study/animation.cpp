@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 
 #include "core/atomic_file.hpp"
@@ -15,6 +16,7 @@
 #include "html/film.hpp"
 #include "output/gif_encoder.hpp"
 #include "output/png_encoder.hpp"
+#include "output/poster_frame.hpp"
 #include "overlay/color_bar.hpp"
 #include "overlay/color_map.hpp"
 #include "overlay/pen.hpp"
@@ -160,9 +162,13 @@ std::optional<Animation> animate_errors(const Scene& scene, const SimulationSett
       std::make_unique<GifEncoder>(file, video.fps, std::function<void(int, int)>());
   progress.begin("drawing the animation", "frames", static_cast<std::int64_t>(exact.size()));
   Image bar;
-  std::vector<Image> stills;
+  std::map<std::size_t, Image> stills;
   const std::set<std::size_t> printed = html::printed_moments(exact.size());
-  for (std::size_t f = 0; f < exact.size(); ++f) {
+  PosterFrame poster(scene.simulation.cloth.triangles);
+  for (const Frame& frame : exact) poster.see(frame.positions);
+  // The loop begins at its poster: a page shows a GIF's first frame until it plays.
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    const std::size_t f = (static_cast<std::size_t>(poster.index()) + k) % exact.size();
     if (stop.stop_requested()) return std::nullopt;
     std::vector<Image> pictures;
     for (std::size_t p = 0; p < panels.size(); ++p) {
@@ -173,13 +179,13 @@ std::optional<Animation> animate_errors(const Scene& scene, const SimulationSett
     const Image all = montage(list, columns, gap, paper);
     if (bar.width == 0) bar = distance_bar(pen, all.width);
     const Image whole = beneath(all, bar);
-    if (printed.contains(f)) stills.push_back(whole);
+    if (printed.contains(f)) stills.emplace(f, whole);
     encoder->add(whole);
     ++progress.done;
   }
   encoder->finish();
   std::vector<const Image*> moments;
-  for (const Image& still : stills) moments.push_back(&still);
+  for (const auto& [f, still] : stills) moments.push_back(&still);
   const std::string picture = encode_png(montage(moments, stills_in_a_row, gap, paper));
   write_file_atomically(std::filesystem::path(file).replace_extension(".png"), picture);
   const std::size_t worst = furthest(motions, exact.back());

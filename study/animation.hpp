@@ -26,7 +26,8 @@ struct Animation {
 };
 
 /// Makes a GIF with several motions of a scene side by side. Vertex colours show the distance to a reference motion,
-/// with a colour bar. The heading of each panel has its label, current error and number of flipped pairs.
+/// with a colour bar. The heading of each panel has its label, current error and number of flipped pairs. The loop
+/// begins at the reference's PosterFrame.
 /// @param scene     gives the camera, the size and the duration
 /// @param reference settings of the reference motion, see to_rounding()
 /// @param panels    cases with the scene's cloth; their step counts are ignored

@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 
 constexpr double flat = 1e-9;    // largest distance from the plane, and least turn of the outline, relative to the size
 constexpr double margin = 1.01;  // for rounding errors
-constexpr double reach = 1.5;    // search radius for close features in the flat shape, in distances
+constexpr double reach = 2;      // search radius for close features in the flat shape, in distances
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 

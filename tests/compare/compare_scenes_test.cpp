@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <opencv2/core.hpp>
 
+#include "compare/panels.hpp"
 #include "overlay/color_map.hpp"
 #include "run/run_scene.hpp"
 #include "tests/support/files.hpp"
@@ -145,6 +146,68 @@ TEST(CompareScenes, TheSameMotionHasNoDistanceAndTheFirstColour) {
   EXPECT_EQ(*std::max_element(result.motions[1].most.begin(), result.motions[1].most.end()), 0);
   EXPECT_GT(result.motions[2].most.back(), 0.01);
   EXPECT_LE(result.motions[2].mean.back(), result.motions[2].most.back());
+}
+
+/// Returns frames of the first scene, in which it rests, and of others, moved by distances from 0 to `most`.
+std::vector<Frame> moved_by(const Scene& scene, const std::vector<double>& most) {
+  std::vector<Frame> frames(most.size());
+  for (std::size_t i = 0; i < most.size(); ++i) {
+    frames[i].positions = scene.simulation.cloth.positions;
+    const Eigen::Index count = frames[i].positions.rows();
+    for (Eigen::Index v = 0; v < count; ++v) {
+      frames[i].positions(v, 0) += most[i] * static_cast<double>(v) / static_cast<double>(count - 1);
+    }
+  }
+  return frames;
+}
+
+std::vector<const Frame*> pointers(const std::vector<Frame>& frames) {
+  std::vector<const Frame*> list;
+  for (const Frame& frame : frames) list.push_back(&frame);
+  return list;
+}
+
+TEST(CompareScenes, ColoursDistancesOverThreeDecadesBelowTheLimit) {
+  const test::SceneFolder folder;
+  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging)};
+  const PanelColors colors(scenes, {"a", "b"}, true, 0.02);
+  EXPECT_FALSE(colors.needs_motion()) << "a given limit needs no survey";
+  const auto frames = moved_by(scenes[0], {0, 0.02});
+  const std::vector<Rgb> shown = colors.colors(pointers(frames), 1);
+  for (std::size_t v = 0; v < shown.size(); ++v) {
+    const double part = static_cast<double>(v) / static_cast<double>(shown.size() - 1);
+    const Rgb expected = viridis(part == 0 ? 0 : 1 + std::log10(part) / 3);
+    EXPECT_NEAR(shown[v].r, expected.r, 1e-9) << v;
+    EXPECT_NEAR(shown[v].g, expected.g, 1e-9) << v;
+    EXPECT_NEAR(shown[v].b, expected.b, 1e-9) << v;
+  }
+  const auto further = moved_by(scenes[0], {0, 20});
+  EXPECT_EQ(colors.colors(pointers(further), 1).back(), viridis(1)) << "beyond the limit";
+  EXPECT_TRUE(colors.colors(pointers(frames), 0).empty()) << "the first keeps its look";
+}
+
+// Of motions that part exponentially, one a hundred times as far as the other, both show where they differ.
+TEST(CompareScenes, FindsALimitThatShowsAllMotions) {
+  const test::SceneFolder folder;
+  const std::vector<Scene> scenes(3, folder.load(swinging));
+  PanelColors colors(scenes, {"a", "b", "c"}, true, std::nullopt);
+  EXPECT_TRUE(colors.needs_motion());
+  std::vector<std::vector<Frame>> film;
+  for (int k = 0; k <= 20; ++k) {
+    const double most = 0.1 * std::pow(10, (k - 20) / 10.0);
+    film.push_back(moved_by(scenes[0], {0, most, most / 100}));
+    colors.survey(pointers(film.back()));
+  }
+  const auto brightness = [&](const std::vector<Frame>& frames, std::size_t panel) {
+    const std::vector<Rgb> shown = colors.colors(pointers(frames), panel);
+    return std::pair(shown.front().g, shown.back().g);  // viridis gains green throughout
+  };
+  for (const std::size_t panel : {1U, 2U}) {
+    const auto [least, most] = brightness(film.back(), panel);
+    EXPECT_GT(most - least, 0.2) << panel;
+  }
+  const auto [least, most] = brightness(film.front(), 1);
+  EXPECT_GT(most - least, 0.2) << "early in the motion, too";
 }
 
 TEST(CompareScenes, RefusesWhatCannotBeCompared) {

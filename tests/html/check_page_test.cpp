@@ -34,6 +34,19 @@ TEST_F(CheckPage, OfARunWhereAllIsWell) {
   keep_screenshots("check-passed");
 }
 
+// The sample's films move away from their first picture.
+TEST_F(CheckPage, BeginsAScenesPicturesWithTheMostTelling) {
+  const auto moments = [&] {
+    return browser_->run(
+        "return [...document.querySelectorAll('.comparison')].map((c) => c.querySelector('.moment:not([hidden])')"
+        ".dataset.moment)");
+  };
+  open(html_report(test::sample_check(false)));
+  for (const auto& moment : moments()) EXPECT_NE(moment, "0");
+  open(html_report(test::sample_check(true)));
+  EXPECT_EQ(moments().at(0), "1") << "the first bad frame of the changed scene";
+}
+
 TEST_F(CheckPage, ShowsFailedScenesFirst) {
   open(html_report(test::sample_check(true)));
   expect_sound();

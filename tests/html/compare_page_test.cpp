@@ -9,7 +9,7 @@ namespace {
 
 class ComparePage : public test::InBrowser {
  protected:
-  static std::string page(const std::vector<std::string>& methods = {"liu13", "liu13"}) {
+  static std::string page(const std::vector<std::string>& methods = {"liu13", "liu13"}, std::size_t poster = 0) {
     CompareResult result;
     std::vector<PageMoment> moments;
     for (const char* label : {"liu13, tolerance = 0.001", "implicit <exact>"}) {
@@ -28,7 +28,7 @@ class ComparePage : public test::InBrowser {
         moments.back().pictures.push_back(encode_png(image));
       }
     }
-    return comparison_page(result, moments, encode_png(Image(700, 60)), "drape compare a.toml b.toml");
+    return comparison_page(result, moments, poster, encode_png(Image(700, 60)), "drape compare a.toml b.toml");
   }
 
   /// Returns the moments of the visible pictures.
@@ -48,6 +48,22 @@ TEST_F(ComparePage, ShowsOneMomentOfAllMotions) {
   EXPECT_EQ(shown(), (nlohmann::json{"1", "1"}));
   EXPECT_EQ(browser_->run("return document.querySelector('.film output').textContent"), "t = 0.10 s");
   keep_screenshots("compare");
+}
+
+TEST_F(ComparePage, ShowsItsPosterUntilItIsPlayedFromTheStart) {
+  const auto chosen = [&] { return browser_->run("return document.querySelector('.film input').value"); };
+  open(page({"liu13", "liu13"}, 2));
+  expect_sound();
+  EXPECT_EQ(shown(), (nlohmann::json{"2", "2"}));
+  EXPECT_EQ(chosen(), "2");
+  EXPECT_EQ(browser_->run("return document.querySelector('.film output').textContent"), "t = 0.20 s");
+  // A tick of the interval of playing shows the first moment.
+  browser_->run(
+      "window.tick = null; const set = window.setInterval; window.setInterval = (f) => (window.tick = f, 1);"
+      "document.querySelector('.film .play').click(); window.setInterval = set; window.tick()");
+  EXPECT_EQ(shown(), (nlohmann::json{"0", "0"}));
+  browser_->run("window.tick()");
+  EXPECT_EQ(shown(), (nlohmann::json{"1", "1"}));
 }
 
 // As on the pages of studies: see method_series().

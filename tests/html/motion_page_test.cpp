@@ -165,8 +165,27 @@ TEST_F(MotionPage, HasTheStretchOfVertices) {
   }
 }
 
+TEST_F(MotionPage, ShowsItsPosterUntilItIsPlayedFromTheStart) {
+  // A flat cloth that is folded about a diagonal, most in its frame 7.
+  write([this](int k) {
+    Frame frame{.index = k, .time = 0.1 * k, .positions = cloth.positions};
+    for (auto x : frame.positions.rowwise()) x[2] = (7 - std::abs(k - 7)) * 0.1 * std::abs(x[0] - x[1]);
+    return frame;
+  });
+  EXPECT_EQ(number("frame"), 7);
+  EXPECT_EQ(of_turn("querySelector('output').textContent"), "t = 0.70 s");
+  EXPECT_EQ(of_turn("querySelector('.moment-slider').value"), "7");
+  // A tick of the clock shows a moment near the start.
+  browser_->run(
+      "window.tick = null; const wait = requestAnimationFrame; window.requestAnimationFrame = (f) => (window.tick = f, "
+      "1); document.querySelector('.turn .play').click(); window.requestAnimationFrame = wait;"
+      "window.tick(performance.now())");
+  EXPECT_LE(number("frame"), 3);
+}
+
 TEST_F(MotionPage, PlaysAndScrubs) {
   write();
+  browser_->run("const s = document.querySelector('.moment-slider'); s.value = 0; s.dispatchEvent(new Event('input'))");
   EXPECT_EQ(of_turn("querySelector('output').textContent"), "t = 0.00 s");
   browser_->run("document.querySelector('.moment-slider').focus()");
   browser_->press(test::Browser::arrow_right);

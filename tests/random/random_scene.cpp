@@ -91,8 +91,10 @@ class Writer {
     }
     if (key.name == "box") return true;
     if (key.name == "prim") return false;
-    // Of a sphere it is of contact, as which the thickness makes it.
+    // A sphere may have it only as contact, and then needs it.
     if (key.name == "allow_overlap") return table != "effects.sphere" || motion % 3 == 1;
+    if (table == "effects.sphere" && motion % 3 != 1 && (key.name == "friction" || key.name == "restitution"))
+      return false;
     if (table == "effects.sphere" || table == "effects.body") {
       constexpr std::array<std::string_view, 4> motions{"velocity", "orbit_period", "keyframes", "track"};
       const auto found = std::ranges::find(motions, key.name);
