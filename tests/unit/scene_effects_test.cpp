@@ -103,10 +103,10 @@ TEST(SceneEffects, AGroundNeedsANormal) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems(with("ground", "height = 0\nnormal = [0, 0, 0]")),
             "scene.toml:8:10: normal: expected a direction, found [0, 0, 0]");
-  const Scene scene = folder.load(with("ground", "height = 2\nnormal = [0, 3, 4]"));
+  const Scene scene = folder.load(with("ground", "height = -2\nnormal = [0, 3, 4]"));
   const auto shape = std::get<GroundShape>(Simulation(scene.simulation).colliders(0).at(0));
   EXPECT_LT((shape.normal - Vector3d(0, 0.6, 0.8)).norm(), 1e-15);
-  EXPECT_EQ(shape.height, 2);
+  EXPECT_EQ(shape.height, -2);
 }
 
 TEST(SceneEffects, ASphereFollowsAUsdFile) {
