@@ -19,7 +19,7 @@ bool has_any(const std::vector<int>& sorted, const Vertices& vertices) {
   return std::ranges::any_of(vertices, [&](int v) { return std::ranges::binary_search(sorted, v); });
 }
 
-/// Adds what of a cloth overlaps with a shape.
+/// Visitor that collects the overlap of a cloth with a shape.
 class OverlapFinder {
  public:
   OverlapFinder(const Cloth& cloth, const Vertices& x, Overlap& overlap) : cloth_(cloth), x_(x), overlap_(overlap) {
@@ -43,7 +43,7 @@ class OverlapFinder {
     }
     find_across(mesh);
   }
-  /// The cloth itself. What is pinned cannot give way, but neither can it be where it is.
+  /// Collects crossings of the cloth with itself, those of pinned triangles as well.
   void find_across_itself() {
     const std::vector<Edge> edges = unique_edges(cloth_.triangles);
     for (const Intersection& found : find_intersections(edges, cloth_.triangles, points_)) {
@@ -54,7 +54,7 @@ class OverlapFinder {
   }
 
  private:
-  /// What lies in a surface to rounding is not inside of it [m].
+  /// Rounding error of positions: points this near a surface are not inside [m].
   [[nodiscard]] double rounding() const { return 1e-12 * std::max(1.0, x_.cwiseAbs().maxCoeff()); }
 
   [[nodiscard]] Point crossing_point(const Edge& edge, const Triangle& triangle) const {
@@ -94,7 +94,7 @@ class OverlapFinder {
       double found = 0;
       for (; k < all.size() && all[k].edge == edge; ++k, ++found) middle += crossing_point(edge, body[all[k].triangle]);
       if (has_any(cloth_.pins, edge)) continue;
-      // What lies on a solid meets the border of its sides.
+      // Cloth on the surface of a solid meets the border of its sides.
       const auto foot = mesh.find(middle / found, 0);
       if (!mesh.solid() || (foot && -foot->distance > rounding())) edges_.push_back(edge);
     }

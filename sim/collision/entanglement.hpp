@@ -8,12 +8,12 @@
 
 namespace drape {
 
-/// Finds what of meshes is on the wrong side of a triangle, and where it has to go back.
+/// Search for the vertices of meshes on the wrong side of a triangle, and for the way back.
 ///
-/// Edges that pass through triangles are cut, which may take each piece of a mesh apart. The largest part of a piece is
-/// where it belongs, and all others are astray (after Baraff, Witkin and Kass 2003, "Untangling cloth", which decides
-/// so between the regions within a curve of intersection). A piece that is not taken apart, as a sheet that a flap goes
-/// through, is not astray.
+/// Edges that pass through triangles are cut, which may divide a piece of a mesh into parts. The largest part of a
+/// piece is in its place, all others are astray (after Baraff, Witkin and Kass 2003, "Untangling cloth", who decide
+/// this for the regions inside a curve of intersection). A piece that stays whole is not astray, as a sheet pierced by
+/// a flap.
 class Entanglement {
  public:
   /// A vertex astray at the end of an edge that passes through a triangle.
@@ -24,12 +24,12 @@ class Entanglement {
     Point normal;   ///< of the triangle, unit, towards the edge's other end
   };
 
-  /// @param meshes triangles of each mesh, which number the same points; one mesh is looked at with itself, two with
-  ///               each other
-  /// @param pins   that are never astray while the rest of their piece is not pinned, ascending
+  /// @param meshes triangles of each mesh, with indices of the same points. One mesh is tested against itself, two
+  ///               against each other.
+  /// @param pins   pinned vertices, ascending. They are astray only if the rest of their piece is pinned as well.
   Entanglement(std::vector<std::vector<Triangle>> meshes, std::size_t point_count, const std::vector<int>& pins);
 
-  /// Looks at the meshes in one place.
+  /// Tests the meshes with their points at these positions.
   void find(const std::vector<Point>& points);
 
   /// An edge that passes through a triangle.
@@ -38,7 +38,7 @@ class Entanglement {
     Triangle triangle;
   };
 
-  /// Those of each edge one after another.
+  /// Returns all crossings, sorted by edges.
   [[nodiscard]] std::span<const Crossing> crossings() const { return crossings_; }
   [[nodiscard]] std::span<const Passed> passed() const { return passed_; }
   [[nodiscard]] bool is_astray(int vertex) const { return astray_[static_cast<std::size_t>(vertex)] != 0; }
@@ -57,10 +57,10 @@ class Entanglement {
   [[nodiscard]] int root(int vertex) const;
 
   std::vector<std::vector<Triangle>> meshes_;
-  std::vector<std::vector<Edge>> edges_;  // of each mesh
-  std::vector<int> piece_;                // a vertex of the same piece, of each vertex
-  std::vector<long> weights_;             // of vertices: 1, and of pins more than all others
-  std::vector<int> parent_;               // of a forest whose trees are the parts
+  std::vector<std::vector<Edge>> edges_;  // edges of each mesh
+  std::vector<int> piece_;                // representative vertex of the piece of each vertex
+  std::vector<long> weights_;             // 1 for a vertex; a pin outweighs all others
+  std::vector<int> parent_;               // forest whose trees are the parts
   std::vector<char> astray_;
   std::vector<Crossing> crossings_;
   std::vector<Passed> passed_;

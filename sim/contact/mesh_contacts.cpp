@@ -44,7 +44,7 @@ bool is_held(const std::vector<ContactConstraint>& held, const ContactKey& key) 
   return at != held.end() && at->key == key;
 }
 
-/// The triangles of a body among points of which those of the cloth are the first.
+/// Returns the triangles of a body with indices behind those of the cloth's points.
 std::vector<Triangle> numbered_after(int cloth_count, std::vector<Triangle> triangles) {
   for (Triangle& triangle : triangles) {
     for (int& vertex : triangle) vertex += cloth_count;
@@ -52,7 +52,7 @@ std::vector<Triangle> numbered_after(int cloth_count, std::vector<Triangle> tria
   return triangles;
 }
 
-/// How far what has passed through a triangle is from it at the start of a step: negative [m].
+/// Returns the signed distance from its triangle of a vertex that has passed, negative [m].
 double passed_distance(const Entanglement::Passed& passed, const std::vector<Point>& x) {
   return passed.normal.dot(x[Index(passed.vertex)] - x[Index(passed.triangle[0])]);
 }
@@ -300,7 +300,7 @@ bool BodyContacts::is_astray(const FeaturePair& pair) const {
 void BodyContacts::bring_back(int source, std::vector<ContactConstraint>& contacts) const {
   for (const Entanglement::Passed& passed : entanglement_->passed()) {
     const std::array<int, 4> vertices = passed_vertices(passed);
-    // What is inside of a solid is brought out by the nearest way.
+    // Vertices inside a solid are brought out by the nearest way.
     const auto by_itself = [&](int vertex) {
       return vertex < cloth_count_ && (vertex == passed.vertex || inside_[Index(vertex)] != 0);
     };

@@ -186,7 +186,7 @@ TEST(CompareScenes, ColoursDistancesOverThreeDecadesBelowTheLimit) {
   EXPECT_TRUE(colors.colors(pointers(frames), 0).empty()) << "the first keeps its look";
 }
 
-// Of motions that part exponentially, one a hundred times as far as the other, both show where they differ.
+// Two motions that part exponentially, one a hundred times as far as the other, both show where they differ.
 TEST(CompareScenes, FindsALimitThatShowsAllMotions) {
   const test::SceneFolder folder;
   const std::vector<Scene> scenes(3, folder.load(swinging));

@@ -112,7 +112,7 @@ TEST(Intersection, IsEveryEdgeThroughEveryTriangleOnce) {
     if (one.edge[0] >= 441) ++of_strip;
   }
   EXPECT_EQ(of_strip, 3);  // both sides and the diagonal
-  // Of the sheet: across the row at x = -0.3, -0.2 … 0.3, and the diagonals that begin at −0.3 … 0.2, and one at each
+  // Edges of the sheet: across the row at x = -0.3, -0.2 … 0.3, and the diagonals that begin at −0.3 … 0.2, and one at each
   // end.
   EXPECT_EQ(static_cast<int>(found.size()) - of_strip, 7 + 7);
   for (std::size_t k = 1; k < found.size(); ++k) {

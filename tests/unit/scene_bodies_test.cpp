@@ -108,7 +108,7 @@ TEST(SphereThickness, IsHowFarBeyondItsRadiusItPushes) {
       "scene.toml:10:13: thickness: give only one of 'scale' and 'thickness': each says how far the push reaches");
 }
 
-/// Where the cloth of a scene overlaps with the last of its effects.
+/// Returns the overlap of a scene's cloth with the last of its effects.
 std::optional<Overlap> overlap_of(const SceneFolder& folder, const std::string& effects,
                                   const std::string& cloth = "") {
   const Scene scene = folder.load((cloth.empty() ? least_scene : cloth) + effects);
