@@ -59,8 +59,9 @@ class ImportedScene {
     const auto& grounds = colliders.grounds.by_moment;
     for (std::size_t k = 0; !grounds.empty() && k < grounds.front().size(); ++k) {
       const Eigen::Vector4d& g = grounds.front()[k];
-      text_ += fmt::format("\n[[effects.ground]]\nnormal = [{}, {}, {}]\nheight = {}\nthickness = 0\n", g[0], g[1],
-                           g[2], g[3]);
+      text_ +=
+          fmt::format("\n[[effects.ground]]\nnormal = [{}, {}, {}]\nheight = {}\nthickness = 0\nallow_overlap = true\n",
+                      g[0], g[1], g[2], g[3]);
     }
     const auto& spheres = colliders.spheres.by_moment;
     for (std::size_t k = 0; !spheres.empty() && k < spheres.front().size(); ++k) add_sphere(spheres, k);
@@ -89,7 +90,7 @@ class ImportedScene {
     }
     const std::string file = moves ? fmt::format("{{ file = \"{}-{{frame:06}}.obj\", fps = {} }}", name, 1 / grid_.step)
                                    : fmt::format("\"{}-000000.obj\"", name);
-    text_ += fmt::format("\n[[effects.body]]\nfile = {}\nthickness = 1e-9\n", file);
+    text_ += fmt::format("\n[[effects.body]]\nfile = {}\nthickness = 1e-9\nallow_overlap = true\n", file);
   }
 
   [[nodiscard]] int bodies() const { return bodies_; }
