@@ -80,7 +80,7 @@ void Entanglement::find_parts() {
 }
 
 void Entanglement::add(const Crossing& crossing, const std::vector<Point>& points) {
-  auto [here, there] = crossing.edge;
+  int here = crossing.edge[0], there = crossing.edge[1];  // clang 14 does not let lambdas capture structured bindings
   if (root(here) == root(there)) return;
   if (!is_astray(here)) std::swap(here, there);
   const auto known = [&](const Passed& one) { return one.vertex == here && one.triangle == crossing.triangle; };
