@@ -118,7 +118,7 @@ class OverlapFinder {
     std::vector<int>& all = overlap_.triangles;
     all.insert(all.end(), crossed_.begin(), crossed_.end());
     std::ranges::sort(all);
-    all.erase(std::ranges::unique(all).begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
   }
 
   const Cloth& cloth_;

@@ -15,7 +15,8 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-constexpr double flat = 1e-9;    // largest distance from the plane, and least turn of the outline, relative to the size
+constexpr double flatness =
+    1e-9;                        // largest distance from the plane, and least turn of the outline, relative to the size
 constexpr double margin = 1.01;  // for rounding errors
 constexpr double reach = 2;      // search radius for close features in the flat shape, in distances
 
@@ -31,7 +32,7 @@ std::optional<std::vector<Vector2d>> flat_shape(const Cloth& cloth) {
   std::vector<Vector2d> points;
   for (int v = 0; v < cloth.vertex_count(); ++v) {
     const Point d = at(v) - origin;
-    if (!(std::abs(normal.dot(d)) <= flat * size)) return std::nullopt;
+    if (!(std::abs(normal.dot(d)) <= flatness * size)) return std::nullopt;
     points.emplace_back(first.dot(d), second.dot(d));
   }
   return points;
@@ -66,7 +67,7 @@ bool is_convex(const std::vector<Triangle>& triangles, const std::vector<Vector2
     const auto p = [&](int i) { return points[static_cast<std::size_t>(i)]; };
     const Vector2d in = p(next) - p(v), out = p(after) - p(next);
     const double turn = std::atan2(cross(in, out), in.dot(out));
-    if (turn < -flat) return false;
+    if (turn < -flatness) return false;
     turned += turn;
     enclosed += cross(p(v), p(next));
     v = next;
