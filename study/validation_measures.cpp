@@ -305,7 +305,8 @@ double shadow_area(const Vertices& x, const std::vector<Triangle>& triangles) {
   const Eigen::RowVector2d low = x.leftCols<2>().colwise().minCoeff();
   const Eigen::Array2i count =
       ((x.leftCols<2>().colwise().maxCoeff() - low) / cell).transpose().cast<int>().array() + 2;
-  std::vector<char> covered(static_cast<std::size_t>(count.x()) * static_cast<std::size_t>(count.y()));
+  const auto rows = static_cast<std::size_t>(count.y());
+  std::vector<char> covered(static_cast<std::size_t>(count.x()) * rows);
   for (const Triangle& triangle : triangles) {
     std::array<Eigen::Vector2d, 3> corner;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -323,7 +324,7 @@ double shadow_area(const Vertices& x, const std::vector<Triangle>& triangles) {
           least = std::min(least, turn);
           most = std::max(most, turn);
         }
-        if (least == 0 || most == 0) covered[static_cast<std::size_t>(i * count.y() + j)] = 1;
+        if (least == 0 || most == 0) covered[static_cast<std::size_t>(i) * rows + static_cast<std::size_t>(j)] = 1;
       }
     }
   }

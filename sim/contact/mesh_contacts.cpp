@@ -263,7 +263,7 @@ void BodyContacts::bring_out(int source, std::vector<ContactConstraint>& contact
     const Triangle& t = body_->topology().triangles[Index(through.foot.triangle)];
     Point from = Point::Zero(), to = Point::Zero();
     for (Index c = 0; c < 3; ++c) {
-      const auto corner = Index(cloth_count_ + t[c]);
+      const Index corner = Index(cloth_count_) + Index(t[c]);
       from += through.foot.weights[static_cast<Eigen::Index>(c)] * start_.pose.out(x_[corner]);
       to += through.foot.weights[static_cast<Eigen::Index>(c)] * end_.pose.out(target_[corner]);
     }
