@@ -19,7 +19,7 @@ constexpr int steps = 100;
 
 /// Makes a tilted sheet that falls on a ground.
 SimulationSettings falling_sheet(double stiffness, const Ground& ground) {
-  Mesh sheet = make_grid(12, 12);
+  Mesh sheet = make_grid(5, 5);
   sheet.positions *= 0.5;
   const Cloth flat = cloth_of(sheet, 0.22, stiffness, {});
   SimulationSettings settings;

@@ -208,7 +208,7 @@ TEST(RunScene, StopsWhenItIsToldToAndKeepsTheRecords) {
   const test::SceneFolder folder;
   RunOptions options;
   options.records.stats = (folder.path() / "stats.json").string();
-  options.steps = 1'000'000'000;
+  options.steps = 1'000'000;
   std::stop_source stop;
   StopAfterAStep watch(stop);
   options.observer = &watch;
@@ -289,7 +289,7 @@ TEST(RunScene, AnUnwritableRecordIsKnownBeforeAnythingIsSimulated) {
   folder.write("file", "");
   RunOptions options;
   options.records.stats = (folder.path() / "file" / "stats.json").string();
-  options.steps = 1'000'000'000;  // would take hours
+  options.steps = 1'000'000;  // would take minutes
   EXPECT_THROW(run(folder.load(swinging), options), OutputError);
 }
 
