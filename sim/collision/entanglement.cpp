@@ -87,11 +87,10 @@ void Entanglement::add(const Crossing& crossing, const std::vector<Point>& point
   if (std::ranges::any_of(passed_, known)) return;
   const Triangle& t = crossing.triangle;
   const Point &a = points[slot(t[0])], &b = points[slot(t[1])], &c = points[slot(t[2])];
-  const Point normal = (b - a).cross(c - a).normalized();
+  const Point across = (b - a).cross(c - a), normal = across.normalized();
   const double below = normal.dot(points[slot(here)] - a), above = normal.dot(points[slot(there)] - a);
   if (below == above) return;
   const Point place = points[slot(here)] + below / (below - above) * (points[slot(there)] - points[slot(here)]);
-  const Point across = (b - a).cross(c - a);
   const double area = across.squaredNorm();
   const double second = (place - a).cross(c - a).dot(across) / area,
                third = (b - a).cross(place - a).dot(across) / area;

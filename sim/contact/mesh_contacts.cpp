@@ -95,7 +95,7 @@ std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool h
 }
 
 SelfContacts::SelfContacts(const ContactTerms& terms, const Cloth& cloth, const Threads& threads)
-    : terms_(terms), cloth_(cloth), sheet_(cloth, touch_reach * terms.distance), candidates_(cloth, threads) {
+    : terms_(terms), cloth_(cloth), candidates_(cloth, threads) {
   x_.resize(static_cast<Index>(cloth.vertex_count()));
   target_ = way_ = ahead_ = x_;
   if (terms.separate) entanglement_.emplace(std::vector<std::vector<Triangle>>{cloth.triangles}, x_.size(), cloth.pins);
@@ -105,7 +105,8 @@ void SelfContacts::begin(const Vertices& x, double start, double end) {
   duration_ = end - start;
   ++steps_since_;
   for (Index i = 0; i < x_.size(); ++i) x_[i] = x.row(static_cast<Eigen::Index>(i)).transpose();
-  sheet_.begin(x_);
+  if (!sheet_) sheet_.emplace(cloth_, touch_reach * terms_.distance);
+  sheet_->begin(x_);
   if (entanglement_) entanglement_->find(x_);
 }
 
@@ -144,7 +145,7 @@ double SelfContacts::rest_distance(const FeaturePair& pair) const {
 void SelfContacts::find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
                         std::vector<ContactConstraint>& contacts) {
   for (Index i = 0; i < x_.size(); ++i) target_[i] = target.row(static_cast<Eigen::Index>(i)).transpose();
-  const bool apart = sheet_.stays_apart(target_);
+  const bool apart = sheet_->stays_apart(target_);
   if (!apart && !go_as_expected()) find_candidates();
   const std::span<const FeaturePair> pairs = apart ? std::span<const FeaturePair>() : candidates_.pairs();
   const auto first = static_cast<std::ptrdiff_t>(contacts.size());
@@ -167,32 +168,30 @@ void SelfContacts::add(const FeaturePair& pair, int source, bool held, std::vect
   const double distance = distance_at_end(before, kept, duration_);
   const auto touch = find_touch({pair.feature, from, to, before}, distance, held);
   if (!touch) return;
-  ContactConstraint contact;
+  ContactConstraint contact = make(pair.vertices, touch->weights, touch->normal);
   contact.key = key_of(pair, source);
-  contact.count = 4;
-  contact.vertices = pair.vertices;
-  contact.weights = touch->weights;
-  contact.normal = touch->normal;
-  contact.offset = contact.carried = Eigen::Vector3d::Zero();
-  contact.start = Eigen::Vector3d::Zero();
-  for (Index i = 0; i < 4; ++i) contact.start += touch->weights[i] * from[i];
   contact.distance = distance;
   contact.friction = terms_.friction;
   contact.collides = touch->collides;
   contacts.push_back(contact);
 }
 
+ContactConstraint SelfContacts::make(const std::array<int, 4>& vertices, const std::array<double, 4>& weights,
+                                     const Point& normal) const {
+  ContactConstraint contact;
+  contact.count = 4;
+  contact.vertices = vertices;
+  contact.weights = weights;
+  contact.normal = normal;
+  contact.offset = contact.carried = contact.start = Eigen::Vector3d::Zero();
+  for (Index i = 0; i < 4; ++i) contact.start += weights[i] * x_[Index(vertices[i])];
+  return contact;
+}
+
 void SelfContacts::bring_back(int source, std::vector<ContactConstraint>& contacts) const {
   for (const Entanglement::Passed& passed : entanglement_->passed()) {
-    ContactConstraint contact;
-    contact.key = {source, passed_kind, passed_vertices(passed)};
-    contact.count = 4;
-    contact.vertices = passed_vertices(passed);
-    contact.weights = passed_weights(passed);
-    contact.normal = passed.normal;
-    contact.offset = contact.carried = Eigen::Vector3d::Zero();
-    contact.start = Eigen::Vector3d::Zero();
-    for (Index i = 0; i < 4; ++i) contact.start += contact.weights[i] * x_[Index(contact.vertices[i])];
+    ContactConstraint contact = make(passed_vertices(passed), passed_weights(passed), passed.normal);
+    contact.key = {source, passed_kind, contact.vertices};
     contact.distance = distance_at_end(passed_distance(passed, x_), terms_.distance, duration_);
     contacts.push_back(contact);
   }

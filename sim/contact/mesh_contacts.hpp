@@ -45,6 +45,9 @@ class SelfContacts final : public ContactSource {
   /// Returns true if the candidates cover this step: all vertices are near the positions predicted in their search.
   [[nodiscard]] bool go_as_expected() const;
   void find_candidates();
+  /// Returns the contact of four vertices, without key and distance.
+  [[nodiscard]] ContactConstraint make(const std::array<int, 4>& vertices, const std::array<double, 4>& weights,
+                                       const Point& normal) const;
   /// Appends the contact of a pair, if there is one.
   void add(const FeaturePair& pair, int source, bool held, std::vector<ContactConstraint>& contacts) const;
   /// Appends the contacts that bring back features that have passed through a triangle.
@@ -54,7 +57,7 @@ class SelfContacts final : public ContactSource {
 
   ContactTerms terms_;
   const Cloth& cloth_;
-  MonotoneSheet sheet_;
+  std::optional<MonotoneSheet> sheet_;        // made by the first step: many systems are only asked what they touch
   CollisionCandidates candidates_;            // for `steps_ahead_` steps at constant velocities
   std::optional<Entanglement> entanglement_;  // at the start of the step, if it is to be separated
   double duration_ = 0;
