@@ -54,7 +54,7 @@ void expect_no_energy_out_of_nothing(const Scene& scene) {
   if (!system.contacts.empty() || !system.filters.empty() || !system.pin_motions.empty() ||
       !system.pin_releases.empty())
     return;
-  if (!system.fields.empty()) return;  // fields of velocity are in no ledger of forces
+  if (!system.fields.empty()) return;                       // fields of velocity are in no ledger of forces
   if (condition_bound(system) > largest_condition) return;  // runs nevertheless, but rounding dominates
   const StepLedger ledger(settings);
   Simulation simulation(settings);

@@ -112,8 +112,8 @@ TEST(Intersection, IsEveryEdgeThroughEveryTriangleOnce) {
     if (one.edge[0] >= 441) ++of_strip;
   }
   EXPECT_EQ(of_strip, 3);  // both sides and the diagonal
-  // Edges of the sheet: across the row at x = -0.3, -0.2 … 0.3, and the diagonals that begin at −0.3 … 0.2, and one at each
-  // end.
+  // Edges of the sheet: across the row at x = -0.3, -0.2 … 0.3, and the diagonals that begin at −0.3 … 0.2, and one at
+  // each end.
   EXPECT_EQ(static_cast<int>(found.size()) - of_strip, 7 + 7);
   for (std::size_t k = 1; k < found.size(); ++k) {
     EXPECT_LT(std::pair(found[k - 1].edge, found[k - 1].triangle), std::pair(found[k].edge, found[k].triangle));
