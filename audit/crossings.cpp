@@ -1,12 +1,17 @@
 #include "audit/crossings.hpp"
 
 #include <fmt/format.h>
-
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
 #include <tuple>
 
-#include "audit/boxes.hpp"
-#include "audit/orientation.hpp"
+#include "audit/box_tree.hpp"
+#include "audit/predicates.hpp"
 
 namespace drape::audit {
 namespace {
@@ -71,6 +76,145 @@ std::vector<Crossing> find_crossings(const Surface& cloth, const Surface& body) 
   add_crossings(exact_body, Owner::body, exact_cloth, Owner::cloth, found);
   sort(found);
   return found;
+}
+
+namespace {
+
+using Point = Eigen::Vector3d;
+using Corners = std::array<Point, 3>;
+
+void deepest_first(std::vector<Inside>& found) {
+  std::ranges::sort(found, [](const Inside& a, const Inside& b) {
+    return a.depth != b.depth ? a.depth > b.depth : a.vertex < b.vertex;
+  });
+}
+
+/// A closed mesh with exact winding numbers.
+class Solid {
+ public:
+  explicit Solid(const Surface& body) : x_(exact_positions(body.x)) {
+    const std::vector<Triangle>& triangles = body.topology.triangles;
+    for (const auto& [a, b, c] : triangles) {
+      corners_.push_back({x_.row(a).transpose(), x_.row(b).transpose(), x_.row(c).transpose()});
+    }
+    boxes_ = boxes_around(triangles, {&x_});
+    bounds_ = boxes_.front();
+    for (const Box& box : boxes_) bounds_.include(box);
+  }
+
+  [[nodiscard]] bool contains(const Point& p) const {
+    if (!bounds_.meets({p.array(), p.array()})) return false;
+    for (int attempt = 1; attempt <= 20; ++attempt) {
+      const std::optional<int> winding = winding_along(p, outside_point(p, attempt));
+      if (winding) return *winding != 0;
+    }
+    return false;  // every attempt failed: rays in any direction start on a triangle
+  }
+
+  [[nodiscard]] double distance(const Point& p) const {
+    double square = std::numeric_limits<double>::infinity();
+    for (const Corners& triangle : corners_) square = std::min(square, square_distance(p, triangle));
+    return std::sqrt(square);
+  }
+
+ private:
+  /// Returns a point beyond the solid along x, in another direction for each attempt. The ray's box is thin in y and z,
+  /// so it meets few triangles; its slopes match no symmetry of meshes.
+  [[nodiscard]] Point outside_point(const Point& p, int attempt) const {
+    const double size = (bounds_.high - bounds_.low).maxCoeff();
+    return {bounds_.high[0] + size, p[1] + 0.01378 * attempt * size, p[2] - 0.02137 / attempt * size};
+  }
+
+  /// Returns the signed number of triangles that the segment pq crosses; nothing if it meets a boundary or starts on a
+  /// triangle.
+  [[nodiscard]] std::optional<int> winding_along(const Point& p, const Point& q) const {
+    const Box ray{p.array().min(q.array()), p.array().max(q.array())};
+    int winding = 0;
+    for (std::size_t t = 0; t < corners_.size(); ++t) {
+      if (!boxes_[t].meets(ray)) continue;
+      const auto& [a, b, c] = corners_[t];
+      const int ab = orientation(p, q, a, b), bc = orientation(p, q, b, c), ca = orientation(p, q, c, a);
+      if (ab * bc < 0 || bc * ca < 0 || ca * ab < 0) continue;
+      const int side_p = orientation(a, b, c, p), side_q = orientation(a, b, c, q);
+      if (side_p * side_q > 0) continue;
+      if (ab * bc * ca * side_p * side_q == 0) return std::nullopt;
+      winding += side_p;
+    }
+    return winding;
+  }
+
+  Vertices x_;
+  std::vector<Corners> corners_;
+  std::vector<Box> boxes_;
+  Box bounds_;
+};
+
+}  // namespace
+
+std::string describe(const Inside& inside) {
+  return fmt::format("cloth vertex {} is {:.4g} mm deep inside", inside.vertex, 1e3 * inside.depth);
+}
+
+bool is_closed(const std::vector<Triangle>& triangles) {
+  std::map<Edge, int> turns;
+  for (const Triangle& triangle : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int a = triangle[i], b = triangle[(i + 1) % 3];
+      turns[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+  }
+  return !triangles.empty() && std::ranges::all_of(turns, [](const auto& turn) { return turn.second == 0; });
+}
+
+std::vector<Inside> find_inside(const Vertices& cloth, const Surface& body) {
+  check_vertices(body.topology.triangles, body.x);
+  if (!is_closed(body.topology.triangles)) throw std::invalid_argument("only a closed mesh has an inside");
+  const Solid solid(body);
+  const Vertices x = exact_positions(cloth);
+  std::vector<Inside> found;
+  for (int v = 0; v < x.rows(); ++v) {
+    const Point p = x.row(v).transpose();
+    if (solid.contains(p)) found.push_back({v, solid.distance(p)});
+  }
+  deepest_first(found);
+  return found;
+}
+
+std::vector<Inside> find_inside_sphere(const Vertices& cloth, const Eigen::Vector3d& center, double radius) {
+  std::vector<Inside> found;
+  for (int v = 0; v < cloth.rows(); ++v) {
+    const double depth = radius - (cloth.row(v).transpose() - center).norm();
+    if (!(depth <= 0)) found.push_back({v, depth});
+  }
+  deepest_first(found);
+  return found;
+}
+
+std::vector<Inside> find_behind_plane(const Vertices& cloth, const Eigen::Vector3d& point,
+                                      const Eigen::Vector3d& normal) {
+  std::vector<Inside> found;
+  for (int v = 0; v < cloth.rows(); ++v) {
+    const double depth = -normal.dot(cloth.row(v).transpose() - point);
+    if (!(depth <= 0)) found.push_back({v, depth});
+  }
+  deepest_first(found);
+  return found;
+}
+
+Topology make_topology(std::vector<Triangle> triangles) {
+  for (const auto& [a, b, c] : triangles) {
+    if (std::min({a, b, c}) < 0 || a == b || b == c || c == a) {
+      throw std::invalid_argument(fmt::format("a triangle needs three different vertices, found {} {} {}", a, b, c));
+    }
+  }
+  std::vector<Edge> edges = unique_edges(triangles);
+  return {std::move(triangles), std::move(edges)};
+}
+
+std::string describe(Owner owner, std::vector<int> vertices) {
+  static constexpr std::array<const char*, 3> names{"vertex", "edge", "triangle"};
+  return fmt::format("{} {} {}", owner == Owner::cloth ? "cloth" : "body", names.at(vertices.size() - 1),
+                     fmt::join(vertices, " "));
 }
 
 }  // namespace drape::audit

@@ -1,11 +1,41 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
-#include "audit/surface.hpp"
+#include "sim/mesh.hpp"
 
 namespace drape::audit {
+
+/// Triangles and unique edges of a mesh. Made once for all steps of a motion.
+struct Topology {
+  std::vector<Triangle> triangles;
+  std::vector<Edge> edges;
+};
+
+/// Extracts the edges. @throws std::invalid_argument if a triangle has a negative or a repeated vertex
+Topology make_topology(std::vector<Triangle> triangles);
+
+/// A mesh at one moment. Refers to its data.
+struct Surface {
+  const Topology& topology;
+  const Vertices& x;  ///< [m]
+};
+
+/// A mesh in one step: all vertices move on straight lines, x(t) = from + t (to − from) for t in [0, 1].
+struct SurfaceMotion {
+  const Topology& topology;
+  const Vertices& from;  ///< [m]
+  const Vertices& to;    ///< [m]
+};
+
+/// The mesh that owns a feature.
+enum class Owner { cloth, body };
+
+/// Returns for example "cloth vertex 3", "body edge 3 4", "cloth triangle 3 4 5".
+std::string describe(Owner owner, std::vector<int> vertices);
 
 /// An edge that intersects a triangle at one moment.
 struct Crossing {
@@ -40,5 +70,35 @@ void sort(std::vector<Crossing>& crossings);
 
 /// Returns true if one edge intersects one triangle, see find_crossings.
 bool goes_through(const std::array<Eigen::Vector3d, 2>& edge, const std::array<Eigen::Vector3d, 3>& triangle);
+
+/// A cloth vertex inside an obstacle.
+struct Inside {
+  int vertex = 0;
+  double depth = 0;  ///< distance to the nearest point of the obstacle's triangles or surface [m], positive
+};
+
+/// Returns for example "cloth vertex 3 is 12 mm deep inside".
+std::string describe(const Inside& inside);
+
+/// Returns true if the mesh encloses space: each edge occurs in both directions equally often among its triangles.
+bool is_closed(const std::vector<Triangle>& triangles);
+
+/// Finds the vertices inside a closed mesh, deepest first.
+///
+/// A vertex is inside if the mesh winds around it, so overlapping parts count as one solid. The winding number is
+/// exact: the sum of a ray's signed crossings with the triangles. A vertex on the surface is outside. Depths are
+/// rounded.
+/// @throws std::invalid_argument if the body is not closed, a position is non-finite or a triangle's vertex does not
+/// exist
+std::vector<Inside> find_inside(const Vertices& cloth, const Surface& body);
+
+/// Finds the vertices inside a sphere, deepest first.
+/// @param radius [m]
+std::vector<Inside> find_inside_sphere(const Vertices& cloth, const Eigen::Vector3d& center, double radius);
+
+/// Finds the vertices behind a plane, such as those under a ground, deepest first.
+/// @param normal unit vector out of the solid
+std::vector<Inside> find_behind_plane(const Vertices& cloth, const Eigen::Vector3d& point,
+                                      const Eigen::Vector3d& normal);
 
 }  // namespace drape::audit

@@ -1,18 +1,84 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "audit/stuck.hpp"
-#include "audit/surface.hpp"
-#include "sim/collider.hpp"
+#include "audit/crossings.hpp"
+#include "sim/mesh.hpp"
+#include "sim/state.hpp"
 
 namespace drape::audit {
+
+/// Largest rise of a motion's energy beyond the work done on it.
+struct EnergyRise {
+  double rise = 0;  ///< [J]; infinite for a non-finite energy
+  int from = 0;     ///< state of least energy before the rise
+  int to = 0;       ///< state at the end of the rise
+};
+
+/// Computes the largest rise over the running minimum: max over i < j of Eⱼ − Eᵢ − (W of the steps from i to j).
+/// @param energies total energy of every state, including the first [J]
+/// @param work     external work in each step, for example by moving obstacles and wind [J]; empty: none
+/// @throws std::invalid_argument unless work is empty or one shorter than energies
+EnergyRise largest_rise(std::span<const double> energies, std::span<const double> work = {});
+
+/// An edge longer than allowed.
+struct StretchedEdge {
+  Edge edge = {};
+  double stretch = 0;  ///< length over rest length; infinite where the rest length is zero
+};
+
+/// Returns for example "cloth edge 3 4 is stretched to 1.2".
+std::string describe(const StretchedEdge& stretched);
+
+/// Finds the edges longer than `limit` times their rest length, most stretched first. Non-finite lengths count.
+/// @param rest rest positions [m], as many as x
+/// @throws std::invalid_argument if rest and x differ in size
+std::vector<StretchedEdge> find_stretched(const std::vector<Edge>& edges, const Vertices& rest, const Vertices& x,
+                                          double limit);
+
+/// Vertices that may rest: known ones, or all that do not move before others do.
+struct Held {
+  bool known = false;         ///< false: vertices that have not moved since the first state are held
+  std::vector<int> vertices;  ///< known held vertices, such as pins
+};
+
+/// Detector of vertices that rest in mid-air while others fall.
+///
+/// A vertex is stuck if three conditions hold at once:
+/// - it has rested for at least two steps: each moved it by at most 10⁻⁹ of a mean edge;
+/// - meanwhile, a vertex that shares an edge with it has fallen by a quarter of that edge or more;
+/// - it has no support: it is free, and more than half a mean edge away from each collider's contact layer and each
+///   cloth triangle without this vertex.
+class StuckWatch {
+ public:
+  /// @param cloth must outlive this
+  /// @param rest  rest positions, for the mean edge length [m]
+  /// @param down  unit vector along which things fall; zero: nothing falls
+  StuckWatch(const Topology& cloth, const Vertices& rest, const Held& held, Eigen::Vector3d down);
+
+  /// Processes the next state. @returns the stuck vertices, ascending
+  std::vector<int> add(const Vertices& x, const std::vector<Collider>& colliders);
+
+ private:
+  [[nodiscard]] bool supported(int vertex, const Vertices& x, const std::vector<Collider>& colliders) const;
+
+  const Topology& cloth_;
+  bool held_known_;
+  Eigen::Vector3d down_;
+  double mean_edge_ = 0;
+  Vertices before_;
+  std::vector<char> held_;
+  std::vector<int> still_;    // steps without motion
+  std::vector<double> fall_;  // fall of the neighbours meanwhile, relative to the edge
+};
 
 /// Checks of a motion's states and of the linear paths between them.
 enum class Check {

@@ -1,14 +1,11 @@
 #include "bench/effect_costs.hpp"
 
 #include <fmt/format.h>
-
 #include <memory>
 #include <utility>
 
 #include "bench/moving_cloth.hpp"
-#include "bench/subject.hpp"
-#include "bench/touching_cloth.hpp"
-#include "sim/effects/air.hpp"
+#include "bench/ratio_table.hpp"
 #include "sim/effects/bending.hpp"
 #include "sim/effects/body.hpp"
 #include "sim/effects/gravity.hpp"

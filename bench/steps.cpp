@@ -2,21 +2,16 @@
 // Flags are Google Benchmark's, for example --benchmark_filter=liu13 or --benchmark_out=steps.json.
 
 #include <benchmark/benchmark.h>
-
 #include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "bench/drawing.hpp"
 #include "bench/effect_costs.hpp"
-#include "bench/encoding.hpp"
-#include "bench/equal_accuracy.hpp"
-#include "bench/factoring.hpp"
 #include "bench/moving_cloth.hpp"
+#include "bench/output.hpp"
 #include "bench/ratio_table.hpp"
-#include "bench/subject.hpp"
 #include "bench/textbook.hpp"
 #include "bench/time_schemes.hpp"
 #include "sim/effects/gravity.hpp"

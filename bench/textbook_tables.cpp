@@ -1,13 +1,12 @@
 // Recomputes the homework's tables with the textbook methods and prints their iteration counts beside the homework's.
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "bench/textbook.hpp"
 

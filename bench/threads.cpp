@@ -2,7 +2,6 @@
 // be idle. Each is the least of several rounds, in which the numbers of threads alternate.
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -16,7 +15,6 @@
 #include <vector>
 
 #include "bench/moving_cloth.hpp"
-#include "bench/touching_cloth.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/effects/self_collision.hpp"
 #include "sim/parallel/vectors.hpp"

@@ -1,12 +1,20 @@
 #include "bench/time_schemes.hpp"
 
+#include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
-#include "bench/subject.hpp"
+#include "bench/moving_cloth.hpp"
+#include "bench/ratio_table.hpp"
+#include "bench/textbook.hpp"
 #include "sim/effects/damping.hpp"
 #include "sim/effects/gravity.hpp"
+#include "sim/effects/sphere.hpp"
+#include "sim/linear/multifrontal_cholesky.hpp"
+#include "sim/linear/sparse_cholesky.hpp"
 #include "sim/simulation.hpp"
 
 namespace drape {
@@ -65,6 +73,165 @@ std::vector<std::string> register_time_schemes() {
     register_subject(c.name, "second order", 1, [c] { return make_motion(c, c.second_order); });
     register_subject(c.name, "first order", 1, [c] { return make_motion(c, c.first_order); });
     names.push_back(c.name);
+  }
+  return names;
+}
+
+namespace {
+
+constexpr int grid_cells = 20;
+constexpr double step = 0.02;  // h [s]
+// Steps of the textbook's motion from rest. Over the sphere, the cloth touches it from the first of them on.
+constexpr int first_step = 30, last_step = 130, every = 5;
+constexpr int measured_steps = (last_step - first_step) / every;
+
+struct Comparison {
+  std::string name;
+  double tolerance;  ///< the textbook's ε [m]
+  bool sphere;
+};
+
+/// Initial states of the textbook's steps, and the residuals that they reach.
+struct Reference {
+  std::vector<State> states;
+  std::vector<double> residuals;  ///< ‖∇g‖ [N]
+};
+
+textbook::Settings textbook_settings(const Comparison& c) {
+  textbook::Settings settings;
+  settings.step = step;
+  settings.tolerance = c.tolerance;
+  if (c.sphere) settings.sphere = textbook::Sphere{};
+  return settings;
+}
+
+Reference make_reference(const Comparison& c) {
+  const Cloth cloth = make_resting_cloth(grid_cells);
+  const textbook::Settings settings = textbook_settings(c);
+  const auto stepper = textbook::make_newton(cloth, settings);
+  stepper->positions = cloth.positions;
+  stepper->velocities = cloth.velocities;
+  Reference reference;
+  for (int i = 0; i < last_step; ++i) {
+    const State before{.x = stepper->positions, .v = stepper->velocities, .step = 0};
+    stepper->step();
+    if (i < first_step || i % every != 0) continue;
+    reference.states.push_back(before);
+    reference.residuals.push_back(textbook::gradient_norm(cloth, settings, *stepper));
+  }
+  return reference;
+}
+
+Subject make_textbook(const Comparison& c) {
+  const auto reference = std::make_shared<Reference>(make_reference(c));
+  const std::shared_ptr<textbook::Stepper> stepper =
+      textbook::make_newton(make_resting_cloth(grid_cells), textbook_settings(c));
+  return {.restore = [] {},
+          .run =
+              [=] {
+                for (const State& state : reference->states) {
+                  stepper->positions = state.x;
+                  stepper->velocities = state.v;
+                  stepper->step();
+                }
+                return measured_steps;
+              }};
+}
+
+Sphere textbook_sphere() {
+  const textbook::Sphere sphere;
+  return {.center = sphere.center, .radius = sphere.radius, .scale = sphere.scale, .stiffness = sphere.stiffness};
+}
+
+/// Makes one simulation per step, because each step has its own target residual.
+Subject make_drape(const Comparison& c) {
+  const auto reference = std::make_shared<Reference>(make_reference(c));
+  const auto simulations = std::make_shared<std::vector<std::unique_ptr<Simulation>>>();
+  for (const double residual : reference->residuals) {
+    SimulationSettings settings;
+    settings.cloth = make_resting_cloth(grid_cells);
+    settings.step = step;
+    settings.integrator.method = Method::quasi_newton;
+    settings.integrator.stop = StoppingRule::gradient;
+    settings.integrator.tolerance = residual;
+    settings.effects = {Gravity{}};
+    if (c.sphere) settings.effects.add(textbook_sphere());
+    simulations->push_back(std::make_unique<Simulation>(std::move(settings)));
+  }
+  return {.restore =
+              [=] {
+                for (std::size_t i = 0; i < simulations->size(); ++i) (*simulations)[i]->restore(reference->states[i]);
+              },
+          .run =
+              [=] {
+                int converged = 0;
+                for (const auto& simulation : *simulations) converged += simulation->step().converged ? 1 : 0;
+                return converged;
+              }};
+}
+
+}  // namespace
+
+std::vector<std::string> register_equal_accuracy() {
+  std::vector<std::string> names;
+  for (const Comparison& c : {Comparison{"step_as_accurate_as_newton/1e-3", 1e-3, false},
+                              Comparison{"step_as_accurate_as_newton/1e-5", 1e-5, false},
+                              Comparison{"step_as_accurate_as_newton/1e-5_sphere", 1e-5, true}}) {
+    register_subject(c.name, "drape", measured_steps, [c] { return make_drape(c); });
+    register_subject(c.name, "textbook", measured_steps, [c] { return make_textbook(c); });
+    names.push_back(c.name);
+  }
+  return names;
+}
+
+namespace {
+
+/// M/h² + L of a cloth without pins, h = 0.02 s.
+struct ClothMatrix {
+  Cloth cloth;
+  LowerPattern pattern;
+  std::vector<double> values;
+
+  explicit ClothMatrix(int cells) : cloth(make_resting_cloth(cells)) {
+    cloth.pins.clear();
+    pattern = spring_pattern({.springs = cloth.springs}, FreeVertices(cloth));
+    values.assign(pattern.rows.size(), -cloth.springs.front().stiffness);
+    std::vector<double> diagonal(static_cast<std::size_t>(cloth.vertex_count()), cloth.masses[0] / 4e-4);
+    for (const Spring& s : cloth.springs) {
+      for (const int end : {s.i, s.j}) diagonal[static_cast<std::size_t>(end)] += s.stiffness;
+    }
+    for (std::size_t v = 0; v < diagonal.size(); ++v) values[static_cast<std::size_t>(pattern.starts[v])] = diagonal[v];
+  }
+};
+
+Subject make_fronts(int cells) {
+  const auto matrix = std::make_shared<ClothMatrix>(cells);
+  return {.restore = [] {},
+          .run =
+              [matrix] {
+                MultifrontalCholesky factor(matrix->pattern, dissect(matrix->pattern, matrix->cloth.rest));
+                return factor.factorize(matrix->values.data()) ? 1 : 0;
+              }};
+}
+
+Subject make_cholmod(int cells) {
+  const auto matrix = std::make_shared<ClothMatrix>(cells);
+  return {.restore = [] {},
+          .run =
+              [matrix] {
+                SparseCholesky factor(matrix->pattern);
+                return factor.factorize(matrix->values.data()) ? 1 : 0;
+              }};
+}
+
+}  // namespace
+
+std::vector<std::string> register_factoring() {
+  std::vector<std::string> names;
+  for (const int cells : {100, 300}) {
+    names.push_back(fmt::format("factor/{}", cells));
+    register_subject(names.back(), "fronts", 1, [cells] { return make_fronts(cells); });
+    register_subject(names.back(), "cholmod", 1, [cells] { return make_cholmod(cells); });
   }
   return names;
 }

@@ -9,4 +9,12 @@ namespace drape {
 /// cases.
 std::vector<std::string> register_time_schemes();
 
+/// Registers the rows that compare a quasi-Newton step with a textbook Newton step of equal accuracy, on the homework's
+/// 20×20 cloth with k = 180 and h = 0.02 s, with and without the sphere; returns their names.
+std::vector<std::string> register_equal_accuracy();
+
+/// Registers the factorisation of the homework cloth's matrix, from its springs to the factor: CASE/fronts, by nested
+/// dissection and dense fronts, and CASE/cholmod, its simplicial factor. Returns the names of the cases.
+std::vector<std::string> register_factoring();
+
 }  // namespace drape

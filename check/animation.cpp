@@ -14,16 +14,15 @@
 #include "check/compare_motion.hpp"
 #include "check/draw_frames.hpp"
 #include "check/picture.hpp"
-#include "check/played_motion.hpp"
-#include "codecs/codecs.hpp"
 #include "core/error.hpp"
-#include "core/read_file.hpp"
-#include "html/film.hpp"
+#include "core/files.hpp"
+#include "output/codecs/codecs.hpp"
 #include "output/gif_encoder.hpp"
-#include "output/motion_packer.hpp"
+#include "output/html_writer.hpp"
 #include "output/png_encoder.hpp"
-#include "render/montage.hpp"
-#include "sim/make_system.hpp"
+#include "render/image.hpp"
+#include "reports/players.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
 namespace {

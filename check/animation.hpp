@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <string>
 
+#include "check/compare_motion.hpp"
 #include "check/golden.hpp"
-#include "check/played_motion.hpp"
 #include "check/report.hpp"
-#include "html/motion_player.hpp"
-#include "render/backend.hpp"
+#include "render/settings.hpp"
+#include "reports/players.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {

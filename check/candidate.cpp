@@ -2,22 +2,17 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 
-#include "check/golden_file.hpp"
-#include "check/golden_folder.hpp"
-#include "check/json_fields.hpp"
+#include "check/golden.hpp"
+#include "check/manifest.hpp"
 #include "check/picture.hpp"
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/hash.hpp"
 #include "core/installation.hpp"
-#include "core/names_in_folders.hpp"
-#include "core/nearest.hpp"
-#include "core/read_file.hpp"
 #include "core/text.hpp"
 #include "scene/motion_scene.hpp"
 

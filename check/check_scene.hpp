@@ -5,11 +5,11 @@
 #include <stop_token>
 #include <vector>
 
+#include "check/compare_motion.hpp"
 #include "check/golden.hpp"
-#include "check/played_motion.hpp"
 #include "check/report.hpp"
 #include "core/error.hpp"
-#include "render/backend.hpp"
+#include "render/settings.hpp"
 #include "run/progress.hpp"
 #include "scene/scene.hpp"
 

@@ -2,13 +2,30 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
+#include "check/draw_frames.hpp"
 #include "check/golden.hpp"
+#include "check/name_difference.hpp"
 #include "check/report.hpp"
+#include "motion/reader.hpp"
+#include "motion/vertex_order.hpp"
+#include "run/progress.hpp"
+#include "run/statistics.hpp"
+#include "scene/scene.hpp"
 
 namespace drape {
+
+/// Runs the golden motion: in windows, each of which begins with the rounded end state of the previous one. Calls every
+/// observer's begin() for each window, and once more at the end. Returns early when a stop is requested.
+/// @param simulation before its first step
+/// @param starts     first steps of the windows, and the last step, see window_starts()
+/// @throws DivergedError after the observers saw the last finite step
+void run_chained(Simulation& simulation, std::span<const std::int64_t> starts, const RoundingUnits& quanta,
+                 std::span<StepObserver* const> observers, const std::stop_token& stop);
 
 /// Simulates each window of a golden motion from its golden state, on several threads, and compares it. Each step is
 /// compared by its hash and its bodies, the middle and the end of a window by vertex positions. A velocity difference
@@ -36,5 +53,43 @@ std::vector<WindowPositions> rerun_window(const SimulationSettings& settings, co
 
 /// Returns "the motion changed at step 37 by up to 2.1 mm at vertex 213"; empty if it did not change.
 std::string describe_motion(const std::vector<WindowResult>& windows);
+
+/// A recorded motion in place of a simulation, by drape or another program.
+class PlayedMotion {
+ public:
+  /// @param reader outlives the motion
+  explicit PlayedMotion(MotionReader& reader) : reader_(reader) {}
+
+  /// Checks that there is a state for every step of the scene. @throws UsageError that names the motion
+  void require_every_step(const Scene& scene) const;
+
+  /// Reorders the vertices from now on: vertex i is the file's vertex order[i].
+  void set_order(VertexOrder order) { order_ = std::move(order); }
+
+  /// Returns the state at the end of a step.
+  [[nodiscard]] State state(std::int64_t step);
+  [[nodiscard]] Energies energies(std::int64_t step) { return reader_.row(step).energies; }
+
+ private:
+  MotionReader& reader_;
+  VertexOrder order_;  // empty: as in the file
+};
+
+/// Passes a recorded motion to observers in windows, like run_chained() does with a simulation. Returns early when a
+/// stop is requested.
+/// @param simulation of the motion's scene; it takes each state without computing a step
+void play_chained(PlayedMotion& motion, Simulation& simulation, std::span<const std::int64_t> starts,
+                  const RoundingUnits& quanta, std::span<StepObserver* const> observers, const std::stop_token& stop);
+
+/// Returns the compared positions of a golden window and those of a recorded motion, like rerun_window().
+std::vector<WindowPositions> played_window(PlayedMotion& motion, const Golden& golden, std::size_t window);
+
+/// Runs a scene's golden motion, see run_chained(), and collects the facts of its film.
+/// @param recorded the motion to read; null: the scene is simulated
+/// @returns nothing if stopped
+/// @throws DivergedError
+std::optional<FilmFacts> survey_motion(const Scene& scene, std::int64_t window_steps, const RoundingUnits& quanta,
+                                       const std::stop_token& stop, Progress& progress,
+                                       PlayedMotion* recorded = nullptr);
 
 }  // namespace drape

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "check/name_difference.hpp"
 #include "check/report.hpp"
-#include "check/rounding.hpp"
 #include "render/image.hpp"
 #include "render/settings.hpp"
 #include "render/view.hpp"
+#include "scene/scene.hpp"
 #include "sim/simulation.hpp"
 
 namespace drape {
@@ -126,5 +127,48 @@ std::filesystem::path golden_picture(const std::filesystem::path& folder, int fr
 /// since its recording.
 /// @throws UsageError naming the file if one is missing, modified or of another version of drape
 Golden read_golden(const std::filesystem::path& folder);
+
+/// Reads a golden's file.
+/// @param most size limit of such a file [bytes]
+/// @throws UsageError naming the file if it is missing, irregular, too large or unreadable
+std::string read_golden_file(const std::filesystem::path& file, std::uintmax_t most);
+
+/// Throws an error with the file, its problem and a remedy. @throws UsageError
+[[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& problem);
+
+/// Returns true if a folder has a golden, even a damaged one; false if the folder is missing or empty.
+/// @throws UsageError if writing a golden would destroy foreign data: a file, a folder of another kind, or a link in
+/// the place of one of the golden's files
+bool has_golden(const std::filesystem::path& folder);
+
+/// Checks that a folder, if it exists and is not empty, holds a golden and nothing else.
+/// @throws UsageError as has_golden(), and if the folder is a link or holds other files
+void require_only_golden(const std::filesystem::path& folder);
+
+/// Removes such a folder. @throws UsageError likewise
+void remove_golden(const std::filesystem::path& folder);
+
+/// Writes a whole golden and replaces an older one atomically. Keeps foreign files and folders in it, and permissions.
+/// If the folder is a link, its target is replaced.
+/// @param pictures one per frame, in order
+/// @returns the size of the written files [bytes]
+/// @throws UsageError as has_golden()
+/// @throws OutputError
+std::uintmax_t write_golden(const std::filesystem::path& folder, const Golden& golden,
+                            const std::vector<Png>& pictures);
+
+/// Returns a reason why a scene's motion cannot equal the golden one, before any step is compared; empty: none.
+std::string motion_mismatch(const Scene& scene, const Golden& golden);
+
+/// Returns a reason why a scene's pictures cannot be compared with the golden ones; empty: none.
+/// @param some_frames true if only some of the golden frames are compared
+std::string picture_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden, bool some_frames);
+
+/// Returns sentences on film settings that differ from the golden ones: "the film plays at half the speed". Empty for a
+/// golden without film settings.
+std::vector<std::string> film_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden);
+
+/// Returns true if two lists of views are equal except for rounding, which may differ between processors.
+bool same_but_for_rounding(const std::vector<View>& a, const std::vector<View>& b);
 
 }  // namespace drape

@@ -1,7 +1,6 @@
 #include "check/picture.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -12,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "codecs/codecs.hpp"
+#include "output/codecs/codecs.hpp"
 
 namespace drape {
 namespace {

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <string_view>
 
-#include "check/flip.hpp"
 #include "check/report.hpp"
+#include "render/flip.hpp"
 #include "render/image.hpp"
-#include "scene/check_settings.hpp"
+#include "scene/scene.hpp"
 
 namespace drape {
 

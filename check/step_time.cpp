@@ -1,7 +1,6 @@
 #include "check/step_time.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

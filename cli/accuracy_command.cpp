@@ -1,22 +1,19 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <chrono>
 #include <memory>
 
-#include "cli/line_option.hpp"
-#include "cli/number_option.hpp"
+#include "cli/options.hpp"
 #include "cli/scene_files.hpp"
-#include "cli/studies.hpp"
-#include "core/atomic_file.hpp"
-#include "core/nearest.hpp"
-#include "core/shell.hpp"
-#include "overlay/fonts.hpp"
+#include "cli/study_command.hpp"
+#include "core/console.hpp"
+#include "core/files.hpp"
+#include "core/text.hpp"
 #include "render/gl/inspect.hpp"
+#include "render/overlay/fonts.hpp"
 #include "run/outputs.hpp"
-#include "scene/method_names.hpp"
-#include "study/accuracy_animation.hpp"
+#include "scene/scene.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/accuracy_runs.hpp"
 

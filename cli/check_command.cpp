@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -8,22 +7,22 @@
 #include <new>
 #include <thread>
 
+#include "check/candidate.hpp"
 #include "check/check_scene.hpp"
-#include "check/machine.hpp"
-#include "cli/background_work.hpp"
-#include "cli/check_results.hpp"
-#include "cli/frame_list.hpp"
-#include "cli/line_option.hpp"
+#include "check/golden.hpp"
+#include "check/name_difference.hpp"
+#include "cli/command_line.hpp"
 #include "cli/motion_runs.hpp"
-#include "cli/number_option.hpp"
+#include "cli/options.hpp"
 #include "cli/scene_files.hpp"
-#include "core/atomic_file.hpp"
-#include "core/nearest.hpp"
+#include "cli/summary.hpp"
+#include "cli/terminal.hpp"
+#include "core/console.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/parallel.hpp"
-#include "core/shell.hpp"
 #include "core/text.hpp"
 #include "run/shard.hpp"
-#include "sweep/estimate.hpp"
 #include "sweep/merge.hpp"
 
 namespace drape {
@@ -286,6 +285,102 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
   add_limits(*sub, *arguments);
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return check(*arguments, common); }; });
+}
+
+namespace {
+
+struct BlessArguments {
+  std::vector<std::string> scenes;
+  std::string frames;
+  GlBackend backend = GlBackend::automatic;
+};
+
+ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
+  const std::vector<int> frames = parse_frame_list(arguments.frames);
+  const std::vector<SceneToRun> scenes = open_scenes(arguments.scenes, {});
+  for (const auto& [scene, recorded] : scenes) has_golden(golden_folder(scene.file));  // check all before blessing any
+  for (const SceneToRun& opened : scenes) {
+    const Scene& scene = opened.scene;
+    CheckSettings settings = scene.check;
+    if (!frames.empty()) settings.frames = frames;
+    std::optional<Blessing> blessing;
+    run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) {
+      std::optional<PlayedMotion> played;
+      if (opened.recorded) played.emplace(*opened.recorded);
+      blessing = bless_scene(scene, settings, arguments.backend, stop, progress, played ? &*played : nullptr);
+    });
+    if (!blessing) {
+      spdlog::error("interrupted: {} is unchanged", shown(golden_folder(scene.file)));
+      return ExitCode::interrupted;
+    }
+    if (!common.quiet) {
+      print_text(stdout, fmt::format("{}: recorded {} frame{}, {} kB\n", shown(blessing->folder), blessing->frames,
+                                     blessing->frames == 1 ? "" : "s", (blessing->size + 500) / 1000));
+    }
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command) {
+  auto arguments = std::make_shared<BlessArguments>();
+  CLI::App* sub = app.add_subcommand("bless", "Record the golden frames and motion that drape check compares to");
+  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML), or motions: .drape, or what drape import reads")
+      ->required();
+  sub->add_option("--frames", arguments->frames, "Frames of the film to compare: A,B,C; see [check] in the scene");
+  add_backend_option(*sub, arguments->backend);
+  sub->callback(
+      [arguments, &common, &command] { command = [arguments, &common] { return bless(*arguments, common); }; });
+}
+
+namespace {
+
+struct AcceptArguments {
+  std::string report = "out/check";
+  std::vector<std::string> scenes;
+  std::string frames;
+};
+
+/// @throws UsageError unless the folder contains a report of drape check
+void require_report(const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto status = std::filesystem::status(folder, error);
+  if (std::filesystem::exists(folder / check_report_files.front(), error)) return;
+  throw UsageError(fmt::format(
+      "{}: {}; expected the report folder of a check: drape check SCENE writes out/check, or what --report says",
+      shown(folder),
+      !std::filesystem::exists(status)        ? "no such folder"
+      : std::filesystem::is_directory(status) ? "there is no report of drape check in this folder"
+                                              : "this is a file"));
+}
+
+ExitCode accept(const AcceptArguments& arguments, const CommonOptions& common) {
+  const std::vector<int> frames = parse_frame_list(arguments.frames);
+  require_report(arguments.report);
+  const std::vector<Candidate> candidates = find_candidates(arguments.report, arguments.scenes);
+  for (const Candidate& candidate : candidates) require_acceptable(candidate, frames);  // before accepting any
+  for (const Candidate& candidate : candidates) {
+    const std::filesystem::path folder = accept_candidate(candidate, frames);
+    if (common.quiet) continue;
+    print_text(stdout,
+               fmt::format("{}: accepted{}\n", shown(folder),
+                           frames.empty() ? "" : fmt::format(": the pictures of the frames {}", arguments.frames)));
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_accept_command(CLI::App& app, const CommonOptions& common, Command& command) {
+  auto arguments = std::make_shared<AcceptArguments>();
+  CLI::App* sub = app.add_subcommand("accept", "Make what a failed check found the golden, without a new run");
+  sub->add_option("REPORT", arguments->report, "Report folder of the check")->required();
+  sub->add_option("SCENE", arguments->scenes, "Only these scenes: names in the report, or scene files");
+  sub->add_option("--frames", arguments->frames,
+                  "Only the pictures of these frames, if the motion is unchanged: A,B,C");
+  sub->callback(
+      [arguments, &common, &command] { command = [arguments, &common] { return accept(*arguments, common); }; });
 }
 
 }  // namespace drape

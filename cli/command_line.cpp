@@ -3,19 +3,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
-
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "cli/environment.hpp"
-#include "cli/examples.hpp"
-#include "cli/suggestions.hpp"
 #include "core/build_info.hpp"
 #include "core/console.hpp"
-#include "core/nearest.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "scene/tables.hpp"
 
 namespace drape {
 namespace {
@@ -201,6 +205,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   add_doctor_command(app, command);
   add_help_command(app, common, command);
   add_manual_command(app, command);
+  add_complete_command(app, command);
   add_examples(app);
   name_values(app);
   refuse_empty_values(app);
@@ -246,6 +251,251 @@ ExitCode reported(const std::function<ExitCode()>& work) {
     spdlog::error("the system refused a resource: {}", error.code().message());
     return ExitCode::usage;
   }
+}
+
+namespace {
+
+struct Examples {
+  std::string_view command;  ///< "study accuracy"; empty: drape itself
+  std::string_view lines;    ///< text after "drape", one line per example
+};
+
+constexpr std::array<Examples, 24> all_examples{{
+    {"",
+     "new flag\n"
+     "render flag.toml\n"
+     "render flag.toml --set look.color=navy -o navy.mp4\n"
+     "help render\n"},
+    {"new",
+     "new flag\n"
+     "new tablecloth table.toml\n"},
+    {"render",
+     "render scene.toml                                    # out/scene.gif\n"
+     "render scene.toml --quality draft --open\n"
+     "render scene.toml -o film.mp4 -o frames/{frame:04}.png\n"
+     "render scene.toml --set video.fps=50 --frames 100..120\n"
+     "render scene.toml -o film.webp --max-size 2MB --poster\n"
+     "render motion.drape --set video.speed=0.1 -o slow.mp4\n"},
+    {"watch",
+     "watch scene.toml\n"
+     "watch scene.toml --port 8000 --no-open\n"},
+    {"lint",
+     "lint scene.toml\n"
+     "lint scenes/*.toml\n"},
+    {"simulate",
+     "simulate scene.toml --energies energies.csv --stats stats.json\n"
+     "simulate scene.toml -o meshes/{frame:04}.obj\n"
+     "simulate scene.toml -o motion.npz --every 1\n"
+     "simulate scene.toml -o motion.drape\n"
+     "simulate --resume motion.drape\n"},
+    {"compare",
+     "compare a.toml b.toml -o ab.gif\n"
+     "compare scene.toml --vary integrator.method=liu13,verlet\n"
+     "compare a.toml b.toml --difference -o ab.html\n"},
+    {"import",
+     "import 'meshes/{frame:04}.obj' --fps 30 -o motion.drape\n"
+     "import cloth.npz --up y --body 'arm/{frame:04}.obj' -o motion.drape\n"
+     "import cache.pc2 --mesh cloth.obj --scale 0.01 -o motion.drape\n"},
+    {"audit",
+     "audit motion.drape\n"
+     "audit scene.toml --max-stretch 1.2 -o audit.html\n"
+     "audit scenes/*.toml --steps 100\n"},
+    {"sweep",
+     "sweep scene.toml --vary cloth.stiffness=10..80/8\n"
+     "sweep scene.toml --vary integrator.method=liu13,implicit --film gif\n"},
+    {"merge", "merge out/shard-1 out/shard-2 -o out/sweep\n"},
+    {"bless",
+     "bless scenes/*.toml\n"
+     "bless scene.toml --frames 0,40,120\n"},
+    {"check",
+     "check scenes/*.toml\n"
+     "check scenes/*.toml --update none      # in continuous integration\n"
+     "check scene.toml --motion-tolerance 1e-5\n"},
+    {"accept",
+     "accept out/check\n"
+     "accept out/check flag --frames 40\n"},
+    {"study",
+     "study accuracy scene.toml\n"
+     "study homework\n"},
+    {"study accuracy",
+     "study accuracy scene.toml\n"
+     "study accuracy scene.toml --methods liu13,quasi-newton --tolerances 1e-2,1e-4\n"
+     "study accuracy scene.toml --animate methods -o out/methods\n"},
+    {"study homework", "study homework --runs 3 -o out/homework\n"},
+    {"study scaling", "study scaling --largest 40\n"},
+    {"study stability", "study stability --per-decade 2 -o out/maps\n"},
+    {"study validation",
+     "study validation\n"
+     "study validation pendulum catenary --methods implicit-sdirk2 -o out/two\n"},
+    {"validate",
+     "validate heavy-cantilever answers.csv\n"
+     "validate catenary motion.npz --problem span-1.2\n"},
+    {"schema",
+     "schema\n"
+     "schema -o scene.schema.json\n"},
+    {"doctor",
+     "doctor\n"
+     "doctor --json\n"},
+    {"help",
+     "help render\n"
+     "help study accuracy\n"},
+}};
+
+/// Returns the subcommand of this name, such as "study accuracy", or null.
+CLI::App* find_subcommand(CLI::App& app, std::string_view name) {
+  if (name.empty()) return &app;
+  const std::size_t end = std::min(name.find(' '), name.size());
+  const auto found = app.get_subcommands([&](const CLI::App* of) { return of->get_name() == name.substr(0, end); });
+  if (found.empty()) return nullptr;
+  return find_subcommand(*found.front(), name.substr(std::min(end + 1, name.size())));
+}
+
+}  // namespace
+
+void add_examples(CLI::App& app) {
+  for (const auto& [command, lines] : all_examples) {
+    CLI::App* const of = find_subcommand(app, command);
+    if (of == nullptr) continue;
+    std::string text = "Examples:\n";
+    for (std::size_t begin = 0; begin < lines.size();) {
+      const std::size_t end = lines.find('\n', begin) + 1;
+      text.append("  drape ").append(lines.substr(begin, end - begin));
+      begin = end;
+    }
+    text.pop_back();
+    of->footer(text);
+  }
+}
+
+namespace {
+
+/// Returns the most specific subcommand that was chosen, or the app itself.
+const CLI::App& chosen_command(const CLI::App& app) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  return chosen.empty() ? app : chosen_command(*chosen.front());
+}
+
+/// Returns the options that may have been intended: those of the app and the chosen subcommand.
+std::vector<std::string> known_options(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* of : {&app, &chosen_command(app)}) {
+    for (const CLI::Option* option : of->get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::vector<std::string> subcommand_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* subcommand : app.get_subcommands(nullptr)) {
+    if (!subcommand->get_group().empty()) names.push_back(subcommand->get_name());
+  }
+  return names;
+}
+
+/// A key of a scene with its table, "caption.size". `pair` means that it takes two whole numbers.
+struct NamedKey {
+  std::string path;
+  bool pair;
+};
+
+std::vector<NamedKey> keys_named(std::string name) {
+  std::replace(name.begin(), name.end(), '-', '_');
+  std::vector<NamedKey> found;
+  const auto look = [&](const TableType& table) {
+    for (const Key& key : table.keys.all()) {
+      if (key.name != name) continue;
+      const bool pair = std::holds_alternative<Eigen::Vector2i*>(key.target) ||
+                        std::holds_alternative<std::optional<Eigen::Vector2i>*>(key.target);
+      found.push_back({table.name + "." + key.name, pair});
+    }
+  };
+  ClothTable cloth;
+  Scene scene;
+  for (const TableType& table : scene_tables(cloth, scene)) look(table);
+  for (const EffectType& type : effect_types()) {
+    Effect effect = type.make();
+    look(effect_table(type, effect));
+  }
+  return found;
+}
+
+/// Converts "640x480" or "640,480" to a scene's array, "[640,480]"; returns other texts unchanged.
+std::string as_pair(const std::string& text) {
+  const std::size_t between = text.find_first_of("x,");
+  const auto whole = [](std::string_view part) {
+    return !part.empty() && part.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  if (between == std::string::npos) return text;
+  const std::string first = text.substr(0, between), second = text.substr(between + 1);
+  return whole(first) && whole(second) ? fmt::format("[{},{}]", first, second) : text;
+}
+
+/// Returns "'--set video.fps=30'", quoted for a shell if necessary.
+std::string set_option(const std::string& assignment) {
+  const std::string word = shell_word(assignment);
+  return word == assignment ? fmt::format("'--set {}'", word) : fmt::format("--set {}", word);
+}
+
+/// Returns the value given to an option: after its '=', or the next word.
+std::string value_of(const std::string& option, std::span<const char* const> words) {
+  if (const std::size_t equals = option.find('='); equals != std::string::npos) return option.substr(equals + 1);
+  const auto found = std::find(words.begin(), words.end(), option);
+  if (found == words.end() || found + 1 == words.end()) return "VALUE";
+  const std::string_view next = *(found + 1);
+  return next.starts_with("--") ? "VALUE" : std::string(next);
+}
+
+/// Returns a hint for an option that is a key of the scene; nothing otherwise, or if the command takes no keys.
+std::optional<std::string> key_instead(const CLI::App& app, const std::string& word,
+                                       std::span<const char* const> words) {
+  if (!word.starts_with("--") || chosen_command(app).get_option_no_throw("--set") == nullptr) return std::nullopt;
+  const std::string name = word.substr(0, word.find('='));
+  const std::vector<NamedKey> keys = keys_named(name.substr(2));
+  if (keys.empty()) return std::nullopt;
+  const std::string given = value_of(word, words), pair = as_pair(given);
+  const bool is_pair = pair.starts_with("[");
+  const auto takes = [is_pair](const NamedKey& key) { return key.pair == is_pair; };
+  const bool any = std::ranges::any_of(keys, takes);  // otherwise ignore the form of the value
+  constexpr std::size_t most = 3;
+  std::size_t told = 0;
+  std::string meant;
+  for (const NamedKey& key : keys) {
+    if ((any && !takes(key)) || told == most) continue;
+    const std::string value = key.pair && !is_pair ? "[640,480]" : key.pair ? pair : given;
+    meant += (told++ == 0 ? "" : " or ") + set_option(key.path + "=" + value);
+  }
+  return fmt::format("'{}' is a key of the scene, not an option; did you mean {}?", name, meant);
+}
+
+}  // namespace
+
+std::string explain(const CLI::App& app, const CLI::ParseError& error, std::span<const char* const> words) {
+  const std::vector<std::string> extras = app.remaining(true);
+  if (extras.empty()) return fmt::format("{}; see drape help", error.what());
+  const std::string& word = extras.front();
+  if (word.starts_with("-")) {
+    if (const auto key = key_instead(app, word, words)) return *key;
+    return "unknown option '" + word + "'" + did_you_mean(word, known_options(app), "options");
+  }
+  const bool scene = word.ends_with(".toml"), motion = word.ends_with(".drape");
+  if ((scene || motion) && app.get_subcommands().empty()) {
+    return fmt::format("'{}' is a {}, not a command; did you mean 'drape render {}'?", word, scene ? "scene" : "motion",
+                       shell_word(word));
+  }
+  return "unknown command '" + word + "'" + did_you_mean(word, subcommand_names(app), "commands");
+}
+
+const CLI::App& find_command(const CLI::App& app, std::span<const std::string> names) {
+  if (names.empty()) return app;
+  for (const CLI::App* subcommand : app.get_subcommands(nullptr)) {
+    if (subcommand->get_name() == names.front()) return find_command(*subcommand, names.subspan(1));
+  }
+  throw UsageError("unknown command '" + names.front() + "'" +
+                   did_you_mean(names.front(), subcommand_names(app), "commands"));
 }
 
 }  // namespace drape

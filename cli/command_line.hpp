@@ -2,10 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <span>
+#include <string>
 
-#include "cli/exit_code.hpp"
+#include "cli/environment.hpp"
 #include "cli/terminal.hpp"
-#include "render/backend.hpp"
+#include "render/settings.hpp"
 
 namespace drape {
 
@@ -62,6 +64,9 @@ void add_doctor_command(CLI::App& app, Command& command);
 /// Adds the hidden command manual, which writes manual pages and shell completions of `app`.
 void add_manual_command(CLI::App& app, Command& command);
 
+/// Adds the hidden command complete, which prints the completions of an incomplete command line of `app`.
+void add_complete_command(CLI::App& app, Command& command);
+
 /// Adds --backend, shared by all subcommands that draw.
 void add_backend_option(CLI::App& subcommand, GlBackend& backend);
 
@@ -70,5 +75,17 @@ ExitCode reported(const std::function<ExitCode()>& work);
 
 /// Reads the command line, runs the chosen subcommand and returns the exit code; errors go to standard error.
 ExitCode run_command_line(int argc, const char* const* argv);
+
+/// Adds examples to the help of every command.
+void add_examples(CLI::App& app);
+
+/// Explains a command line error and suggests a correction: another command or option, `drape render` for a scene in
+/// place of a command, or `--set` for a key of the scene written as an option.
+/// @param words the command line, from its second word on
+std::string explain(const CLI::App& app, const CLI::ParseError& error, std::span<const char* const> words);
+
+/// Returns the subcommand at a path of names, as in `study accuracy`.
+/// @throws UsageError if there is none, with the nearest name
+const CLI::App& find_command(const CLI::App& app, std::span<const std::string> names);
 
 }  // namespace drape

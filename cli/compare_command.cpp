@@ -1,31 +1,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
-
 #include <memory>
 #include <tuple>
 
-#include "cli/background_work.hpp"
 #include "cli/command_line.hpp"
-#include "cli/film_times.hpp"
-#include "cli/frame_list.hpp"
-#include "cli/grid_option.hpp"
-#include "cli/interruption.hpp"
-#include "cli/line_option.hpp"
 #include "cli/motion_runs.hpp"
-#include "cli/number_option.hpp"
-#include "cli/output_clashes.hpp"
-#include "cli/quality_option.hpp"
+#include "cli/options.hpp"
 #include "cli/run_arguments.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "compare/compare_scenes.hpp"
-#include "core/shell.hpp"
+#include "core/console.hpp"
 #include "core/text.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
-#include "sweep/variation.hpp"
+#include "sweep/request.hpp"
 
 namespace drape {
 namespace {

@@ -1,11 +1,32 @@
+#include "cli/doctor.hpp"
+
+#include <cholmod.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/command_line.hpp"
-#include "cli/diagnosis.hpp"
+#include "cli/environment.hpp"
 #include "core/console.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/installation.hpp"
+#include "output/codecs/codecs.hpp"
+#include "output/registry.hpp"
+#include "render/gl/context.hpp"
+#include "render/overlay/fonts.hpp"
+#include "render/renderer.hpp"
+#include "reports/diagram_files.hpp"
+#include "scene/scene.hpp"
+#include "sim/kernels/kernels.hpp"
+#include "sim/mesh.hpp"
 
 namespace drape {
 namespace {
@@ -135,6 +156,189 @@ void add_doctor_command(CLI::App& app, Command& command) {
       return diagnosis.drawing.works() ? ExitCode::ok : ExitCode::output;
     };
   });
+}
+
+namespace {
+
+/// Runs the work and returns its error, if any.
+template <class Work>
+std::string problem_of(Work work) {
+  try {
+    work();
+    return {};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> relevant_environment() {
+  std::vector<std::pair<std::string, std::string>> set;
+  for (const char* name : {"DRAPE_DATA", "DRAPE_ISA", "GALLIUM_DRIVER", "LIBGL_ALWAYS_SOFTWARE",
+                           "LP_NATIVE_VECTOR_WIDTH", "LP_NUM_THREADS", "OPENBLAS_CORETYPE", "OPENBLAS_NUM_THREADS"}) {
+    if (const char* value = std::getenv(name)) set.emplace_back(name, value);
+  }
+  return set;
+}
+
+void find_kernels(Diagnosis& diagnosis) {
+  for (const Kernels* version : all_kernels()) {
+    diagnosis.kernels.emplace_back(version->name);
+    if (version->supported() != 0) diagnosis.runnable_kernels.emplace_back(version->name);
+  }
+  diagnosis.chosen_kernels.name = "instruction set";
+  diagnosis.chosen_kernels.problem = problem_of([&] {
+    use_environment_isa();
+    diagnosis.chosen_kernels.detail = std::string(kernels().name);
+  });
+}
+
+/// Finds the library that implements CHOLMOD's BLAS calls.
+Finding find_blas() {
+  Finding found{.name = "BLAS", .detail = {}, .problem = {}, .packages = "libopenblas0-serial"};
+  Dl_info info{};
+  void* const symbol = dlsym(RTLD_DEFAULT, "dgemm_");
+  if (symbol == nullptr || dladdr(symbol, &info) == 0) {
+    found.problem = "no BLAS is loaded";
+    return found;
+  }
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::canonical(info.dli_fname, error);
+  found.detail = error ? info.dli_fname : file.string();
+  using Describe = char* (*)();
+  if (const auto describe = reinterpret_cast<Describe>(dlsym(RTLD_DEFAULT, "openblas_get_config"))) {
+    found.detail += fmt::format(", {}", describe());
+  } else if (found.detail.find("/blas/libblas") != std::string::npos) {
+    found.problem =
+        "this is the reference BLAS, which takes three times as long to factor large systems: " + found.detail;
+  }
+  return found;
+}
+
+BackendFinding find_backend(GlBackend backend) {
+  BackendFinding found;
+  found.name = backend_name(backend);
+  found.packages = debian_packages(backend);
+  found.problem = problem_of([&] { found.facts = inspect_backend(backend); });
+  if (found.works()) found.detail = fmt::format("{}, OpenGL {}", found.facts.renderer, found.facts.version);
+  return found;
+}
+
+/// Draws a square in the middle of the picture and checks the middle and a corner.
+void draw_a_square() {
+  use_environment_data();
+  const Mesh mesh = make_grid(1, 1);
+  Look look;
+  look.background = Rgb{0, 0, 1};
+  look.color = {1, 1, 1};
+  Renderer renderer(data_folder(), {64, 64}, View{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30}, look, 4, mesh.triangles, {});
+  Frame frame;
+  frame.positions = mesh.positions;
+  const Image image = renderer.draw(frame);
+  const std::uint8_t* const middle = image.at(32, 32);
+  const std::array<std::uint8_t, 3> corner{image.at(0, 0)[0], image.at(0, 0)[1], image.at(0, 0)[2]};
+  if (corner != std::array<std::uint8_t, 3>{0, 0, 255} || middle[0] < 64) {
+    throw OutputError(
+        fmt::format("the test picture is wrong: its middle is rgb({}, {}, {}), its corner rgb({}, {}, {})", middle[0],
+                    middle[1], middle[2], corner[0], corner[1], corner[2]));
+  }
+}
+
+Finding find_drawing(const std::vector<BackendFinding>& backends) {
+  Finding drawing{.name = "drawing", .detail = {}, .problem = {}, .packages = {}};
+  const auto first = std::find_if(backends.begin(), backends.end(), [](const Finding& b) { return b.works(); });
+  if (first == backends.end()) {
+    drawing.problem = "no OpenGL library works";
+    return drawing;
+  }
+  drawing.detail = first->name;
+  drawing.problem = problem_of(draw_a_square);
+  return drawing;
+}
+
+Finding find_output(const TemporaryFolder& folder, const OutputFormat& format) {
+  Finding found{.name = format.extension, .detail = {}, .problem = {}, .packages = format.packages};
+  found.problem = problem_of([&] { found.detail = try_format(format, folder.path() / ("film" + format.extension)); });
+  return found;
+}
+
+/// Returns the font of a PDF file's first text; empty if it has none.
+std::string first_font(const std::string& pdf) {
+  const std::string key = "/BaseFont /";
+  const std::size_t at = pdf.find(key);
+  if (at == std::string::npos) return {};
+  const std::string name = pdf.substr(at + key.size(), pdf.find_first_of(" \n/>", at + key.size()) - at - key.size());
+  return name.substr(name.find('+') + 1);  // skip the subset prefix of six letters
+}
+
+/// Checks the fonts of captions: for Latin and Greek, and for Chinese.
+Finding find_text() {
+  Finding text{.name = "text", .detail = {}, .problem = {}, .packages = Fonts::packages()};
+  text.problem = problem_of([&] {
+    Fonts fonts;
+    fonts.require("aεµ中");
+    text.detail = fmt::format("{}; Chinese from {}", fonts.source(U'ε'), fonts.source(U'中'));
+  });
+  return text;
+}
+
+/// Checks the PDF and PNG export of diagrams and the font of their text.
+std::vector<Finding> find_diagrams() {
+  Finding files{.name = "diagrams", .detail = {}, .problem = {}, .packages = SvgPrinter::packages()};
+  Finding fonts{.name = "fonts", .detail = {}, .problem = {}, .packages = "fonts-dejavu-core"};
+  constexpr const char* letter =
+      "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'><text y='9' "
+      "font-family='sans-serif'>a</text></svg>";
+  files.problem = problem_of([&] { fonts.detail = first_font(SvgPrinter().pdf(letter)); });
+  if (!files.works()) return {files};
+  files.detail = "SVG, PDF, PNG";
+  if (fonts.detail.empty()) fonts.problem = "no font found: text is missing from the diagrams' PDF and PNG files";
+  return {files, fonts};
+}
+
+}  // namespace
+
+std::vector<std::string> Diagnosis::missing_packages() const {
+  std::vector<std::string> missing;
+  const auto add = [&](const Finding& finding) {
+    std::istringstream words(finding.works() ? "" : finding.packages);
+    for (std::string word; words >> word;) {
+      if (std::find(missing.begin(), missing.end(), word) == missing.end()) missing.push_back(word);
+    }
+  };
+  for (const BackendFinding& backend : backends) add(backend);
+  add(blas);
+  for (const Finding& output : outputs) add(output);
+  for (const Finding& finding : optional) add(finding);
+  return missing;
+}
+
+Diagnosis diagnose() {
+  Diagnosis diagnosis;
+  diagnosis.environment = relevant_environment();  // first: preparing OpenGL sets some of them
+  diagnosis.build = build_info();
+  diagnosis.machine = machine_facts();
+  find_kernels(diagnosis);
+  diagnosis.blas = find_blas();
+  std::array<int, 3> version{};
+  cholmod_version(version.data());
+  diagnosis.cholmod = fmt::format("{}.{}.{}", version[0], version[1], version[2]);
+
+  for (const GlBackend backend : {GlBackend::osmesa, GlBackend::egl}) {
+    if (backend == GlBackend::egl && !portable_root().empty()) continue;  // not in the portable archive
+    diagnosis.backends.push_back(find_backend(backend));
+  }
+  diagnosis.drawing = find_drawing(diagnosis.backends);
+
+  diagnosis.codecs = {.name = "codecs", .detail = {}, .problem = {}, .packages = {}};
+  diagnosis.codecs.problem = problem_of([&] {
+    codecs();
+    diagnosis.codecs.detail = codecs_module().string();
+  });
+  const TemporaryFolder folder("drape-doctor");
+  for (const OutputFormat& format : output_formats()) diagnosis.outputs.push_back(find_output(folder, format));
+  diagnosis.optional = find_diagrams();
+  diagnosis.optional.push_back(find_text());
+  return diagnosis;
 }
 
 }  // namespace drape

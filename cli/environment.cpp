@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "scene/scene.hpp"
-#include "sim/instruction_set.hpp"
+#include "sim/settings.hpp"
 
 namespace drape {
 namespace {

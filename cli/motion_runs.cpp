@@ -2,25 +2,24 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
 
-#include "cli/background_work.hpp"
-#include "cli/film_times.hpp"
+#include "cli/run_arguments.hpp"
 #include "cli/scene_files.hpp"
+#include "cli/terminal.hpp"
 #include "core/build_info.hpp"
 #include "core/error.hpp"
-#include "core/temporary_folder.hpp"
+#include "core/files.hpp"
 #include "core/text.hpp"
-#include "import/import_motion.hpp"
-#include "motion/scene_folder.hpp"
+#include "motion/import/import_motion.hpp"
+#include "motion/reader.hpp"
 #include "output/registry.hpp"
-#include "run/motion_frames.hpp"
+#include "run/frame_player.hpp"
 #include "scene/motion_scene.hpp"
-#include "scene/quality.hpp"
-#include "sim/stop.hpp"
+#include "scene/scene.hpp"
+#include "sim/settings.hpp"
 
 namespace drape {
 namespace {

@@ -1,7 +1,7 @@
 // bin/drape of the portable archive: starts libexec/drape with the archive's own loader and libraries, independent of
 // the libc and other libraries of the system.
-#include <unistd.h>
 
+#include <unistd.h>
 #include <array>
 #include <cerrno>
 #include <climits>

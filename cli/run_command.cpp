@@ -1,28 +1,25 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "cli/command_line.hpp"
-#include "cli/grid_option.hpp"
-#include "cli/interruption.hpp"
 #include "cli/motion_runs.hpp"
-#include "cli/output_clashes.hpp"
+#include "cli/options.hpp"
 #include "cli/run_arguments.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/scene_run.hpp"
+#include "cli/terminal.hpp"
 #include "core/console.hpp"
 #include "core/text.hpp"
-#include "import/sources.hpp"
+#include "motion/import/import_motion.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
-#include "render/texture_image.hpp"
-#include "run/annotations.hpp"
-#include "run/motion_records.hpp"
+#include "render/image.hpp"
 #include "run/outputs.hpp"
+#include "run/records.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
 

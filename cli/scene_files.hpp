@@ -6,9 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "run/run_scene.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {
+
+/// Opens a file or an address in its desktop application with xdg-open, without waiting. Warns if there is none.
+void open_file(const std::string& what);
 
 /// Collector of the problems of several scenes, each line once. A line about --set or --vary starts with its scene,
 /// unless it applies to all of them.
@@ -32,5 +36,10 @@ std::vector<Scene> load_scenes(const std::vector<std::string>& files, const std:
 /// Returns unique names for scenes, valid as file names: their own names, prefixed by the folder if ambiguous.
 /// @param taken reserved names
 std::vector<std::string> unique_names(const std::vector<Scene>& scenes, const std::set<std::string>& taken = {});
+
+/// Checks that no file is written twice, and that no input is overwritten. Files are compared by identity, not by name.
+/// @param options of each scene
+/// @throws UsageError that lists all such files
+void require_distinct_files(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options);
 
 }  // namespace drape

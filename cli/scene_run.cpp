@@ -2,27 +2,200 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 
-#include "cli/interruption.hpp"
 #include "cli/motion_runs.hpp"
-#include "cli/open_file.hpp"
+#include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
-#include "core/shell.hpp"
+#include "core/console.hpp"
 #include "core/text.hpp"
-#include "run/motion_space.hpp"
 #include "run/outputs.hpp"
-#include "sim/make_system.hpp"
+#include "run/progress.hpp"
+#include "run/run_scene.hpp"
+#include "scene/document.hpp"
+#include "scene/table_reader.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/simulation.hpp"
+#include "sim/stability.hpp"
 #include "sim/start_overlap.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
+
+void Separation::begin(const Simulation& simulation) {
+  parts_.clear();
+  for (const StartOverlap& start : start_overlaps(simulation.settings())) {
+    if (!start.overlap.contact) continue;
+    parts_.push_back({start.effect, describe(start, simulation.settings()), std::nullopt});
+  }
+  if (next_ != nullptr) next_->begin(simulation);
+}
+
+void Separation::replay(const StepRow& row, double time, double seconds) {
+  if (next_ != nullptr) next_->replay(row, time, seconds);
+}
+
+void Separation::after_step(const Simulation& simulation, const StepReport& report, double seconds) {
+  if (next_ != nullptr) next_->after_step(simulation, report, seconds);
+  for (Part& part : parts_) {
+    if (part.separated) continue;
+    const double time = simulation.time();
+    if (!find_overlap(simulation.settings(), part.effect, simulation.state().x, time)) part.separated = time;
+  }
+}
+
+std::vector<std::string> Separation::lines() const {
+  std::vector<std::string> lines;
+  for (const Part& part : parts_) {
+    lines.push_back(fmt::format("begins with {}: {}", part.text,
+                                part.separated ? fmt::format("separated after {:.3g} s", *part.separated)
+                                               : std::string("not separated at the end")));
+  }
+  return lines;
+}
+
+namespace {
+
+class Advice {
+ public:
+  Advice(const Scene& scene, const TomlValue& document)
+      : scene_(scene), document_(document), problems_(scene.file, {}), system_(make_system(scene.simulation)) {}
+
+  std::vector<std::string> all() && {
+    std::vector<std::string> said = scene_.warnings;
+    without_effect();
+    camera();
+    steps();
+    for (const StartOverlap& overlap : start_overlaps(scene_.simulation)) {
+      found_.push_back(fmt::format("{}: {}", shown(scene_.file), overlap_advice(overlap, scene_.simulation)));
+    }
+    said.insert(said.end(), found_.begin(), found_.end());
+    return said;
+  }
+
+ private:
+  [[nodiscard]] const TomlValue* given(const std::string& key) const { return find_path(document_, key); }
+
+  [[nodiscard]] bool has(std::string_view effect) const {
+    return std::ranges::any_of(scene_.simulation.effects, [&](const Effect& e) { return e.name() == effect; });
+  }
+
+  void add(const std::string& key, const std::string& sentence) {
+    const std::size_t dot = key.rfind('.');
+    const TomlValue* table = given(key.substr(0, dot));
+    const std::string name = key.substr(dot + 1);
+    found_.push_back(fmt::format(
+        "{}: {}: {}", problems_.text(table == nullptr ? document_.place : place_of(*table, name)), name, sentence));
+  }
+
+  void unless(bool effective, std::initializer_list<const char*> keys, const char* reason) {
+    for (const char* key : keys) {
+      if (!effective && given(key) != nullptr) add(key, fmt::format("it has no effect {}", reason));
+    }
+  }
+
+  void without_effect() {
+    const Look& look = scene_.look;
+    const IntegratorSettings& integrator = scene_.simulation.integrator;
+    unless(look.mesh_lines, {"look.line_color", "look.line_width"}, "without mesh_lines = true");
+    unless(look.color_by.has_value(), {"look.color_limit"}, "without color_by");
+    unless(!look.color_by, {"look.color", "look.texture"}, "beside color_by, which colours the cloth");
+    unless(!look.texture.empty(), {"look.anisotropy"}, "without a texture");
+    unless(has("ground"), {"look.ground_color", "look.ground_grid"}, "without [effects.ground]");
+    unless(has("sphere"), {"look.sphere_color"}, "without [effects.sphere]");
+    unless(has("body"), {"look.body_color"}, "without [effects.body]");
+    unless(!scene_.camera.position, {"camera.azimuth", "camera.elevation", "camera.margin"},
+           "beside position, which places the camera");
+    unless(!is_explicit(integrator.method), {"integrator.tolerance", "integrator.max_iterations"},
+           "with an explicit method, which solves nothing");
+    unless(integrator.method == Method::implicit, {"integrator.linear_solver"}, "without method = \"implicit\"");
+    unless(!scene_.caption.text.empty(), {"caption.place", "caption.size", "caption.color", "caption.backing"},
+           "without a text");
+  }
+
+  /// Warns about a camera inside an object, which hides everything else.
+  void camera() {
+    if (!scene_.camera.position) return;
+    const Eigen::RowVector3d eye = scene_.camera.position->transpose();
+    const Vertices& x = scene_.simulation.cloth.positions;
+    constexpr double close = 0.1;  // relative to the cloth's size
+    const double distance = (x.rowwise() - eye).rowwise().norm().minCoeff(), size = size_of(scene_.simulation.cloth);
+    const bool within =
+        (eye.array() >= x.colwise().minCoeff().array()).all() && (eye.array() <= x.colwise().maxCoeff().array()).all();
+    if (within || distance < close * size) {
+      add("camera.position",
+          fmt::format("the camera is {} the cloth, {:.2g} m from its nearest vertex: leave it out, and it is placed so "
+                      "that the whole motion is in view",
+                      within ? "inside" : "close to", distance));
+    }
+    for (const Collider& collider : system_.colliders_at(0)) {
+      const auto* sphere = std::get_if<SphereShape>(&collider);
+      const auto* ground = std::get_if<GroundShape>(&collider);
+      if (sphere != nullptr && (sphere->center.transpose() - eye).norm() < sphere->radius) {
+        add("camera.position", "the camera is inside a sphere");
+      }
+      if (ground != nullptr && ground->normal.dot(eye.transpose()) < ground->height) {
+        add("camera.position", "the camera is below the ground");
+      }
+    }
+  }
+
+  void steps() {
+    constexpr double many = 100;
+    const SimulationSettings& settings = scene_.simulation;
+    const double step = settings.step, per_frame = scene_.video.speed / scene_.video.fps;
+    if (step > per_frame * (1 + 1e-9)) {
+      add("time.step", fmt::format("steps are longer than the {:.3g} s between frames, so the film shows straight ways "
+                                   "between them; try step = {:.2g}",
+                                   per_frame, per_frame));
+    }
+    if (is_explicit(settings.integrator.method) || settings.accuracy) return;
+    const double safe = safe_step(system_);
+    if (!(safe > 0) || step <= many * safe) return;  // 0: a field of unknown gradient
+    add("time.step",
+        fmt::format("{:g} s is {:.0f} times what the springs' vibrations take, so backward Euler damps motion that is "
+                    "not theirs as well; try step = {:.1g}, a smaller stiffness, or [integrator] scheme = \"sdirk2\"",
+                    step, step / safe, many / 2 * safe));
+  }
+
+  const Scene& scene_;
+  const TomlValue& document_;
+  Problems problems_;
+  System system_;
+  std::vector<std::string> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> advice_on(const Scene& scene, const TomlValue& document) {
+  return Advice(scene, document).all();
+}
+
+std::string advice_on_pace(const Scene& scene) {
+  using Clock = std::chrono::steady_clock;
+  constexpr double enough = 1, long_run = 30;  // time for the trial, and a long run [s]
+  Pace pace;
+  pace.left = scene.step_count();
+  Simulation simulation(scene.simulation);
+  const auto begin = Clock::now();
+  while (pace.left > 0 && pace.seconds < enough) {
+    const StepReport report = simulation.step();
+    ++pace.steps;
+    --pace.left;
+    pace.iterations += report.iterations;
+    pace.substeps += static_cast<double>(report.substeps);
+    pace.seconds = pace.simulated = std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+  return pace.steps > 0 && pace.whole() >= long_run ? describe_pace(pace, scene.simulation) : std::string();
+}
+
 namespace {
 
 /// Returns the command that resumes a run from its motion file and makes its other outputs.

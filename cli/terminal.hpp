@@ -1,11 +1,16 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdio>
+#include <functional>
+#include <future>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
-#include "core/wrap.hpp"
+#include "core/text.hpp"
+#include "run/progress.hpp"
 
 namespace drape {
 
@@ -37,5 +42,67 @@ void clear_passing_line();
 
 /// Sends log messages to standard error as "drape: message", wrapped and with a prefix for the severity.
 void log_to_terminal(ColorMode mode);
+
+/// Progress display of a run on standard error: a bar on a terminal, elsewhere plain lines at growing intervals.
+class ProgressDisplay {
+ public:
+  enum class Style { none, bar, lines };
+
+  /// Returns the style that fits standard error.
+  static Style fitting_style(bool quiet);
+
+  ProgressDisplay(const Progress& progress, Style style) : progress_(progress), style_(style) {}
+  ~ProgressDisplay() { clear(); }
+
+  /// Shows the current progress; call it often.
+  void update();
+  /// Removes the bar before other text is printed.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const Progress& progress_;
+  Style style_;
+  const char* stage_ = nullptr;
+  Clock::time_point begin_ = Clock::now(), stage_begin_, last_line_ = begin_;
+};
+
+/// Returns the stop source of the process, for current and later work. Ctrl-C, SIGTERM, a closed terminal, or q between
+/// two steps request a stop. A dedicated thread forwards signals at once, because a handler may only wake it. A second
+/// signal ends the process. The first call installs the handlers.
+std::stop_source& interruption();
+
+/// Work on its own thread; the calling thread shows its progress. The token is that of interruption().
+class BackgroundWork {
+ public:
+  /// @param let_others_begin called at most once, when the rest needs only one core
+  using Work = std::function<void(const std::stop_token&, Progress&, const std::function<void()>& let_others_begin)>;
+
+  /// Starts the work.
+  explicit BackgroundWork(const Work& work);
+
+  /// Shows progress until others may begin, at the latest until the end.
+  /// @param quiet show no progress
+  void wait_until_single_core(bool quiet) { watch(quiet, others_may_begin_); }
+
+  /// Shows progress until the end.
+  /// @throws errors of the work
+  void watch_to_its_end(bool quiet);
+
+ private:
+  void watch(bool quiet, const std::future<void>& until);
+
+  Progress progress_;
+  std::promise<void> told_;
+  std::future<void> others_may_begin_ = told_.get_future();
+  std::future<void> done_;  // last member: its destructor waits, and the others are still needed
+};
+
+/// Runs work on its own thread and shows its progress. The token is that of interruption().
+/// @param quiet show no progress
+/// @returns true if interrupted
+/// @throws errors of the work
+bool run_watched(bool quiet, const std::function<void(const std::stop_token&, Progress&)>& work);
 
 }  // namespace drape

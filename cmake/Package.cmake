@@ -24,16 +24,16 @@ install(FILES ${PROJECT_BINARY_DIR}/drapeConfig.cmake ${PROJECT_BINARY_DIR}/drap
 # and include each other by that name: folders named `core` or `run` would clash with others.
 set(public_headers
   core/error.hpp
-  sim/body_shape.hpp sim/cloth.hpp sim/collider.hpp sim/energies.hpp sim/fabrics.hpp sim/frame.hpp sim/instruction_set.hpp sim/keyframes.hpp
-  sim/grid.hpp sim/mesh.hpp sim/mesh_motion.hpp sim/settings.hpp sim/simulation.hpp sim/sphere_track.hpp sim/state.hpp sim/step_report.hpp sim/stop.hpp
-  sim/effects/air.hpp sim/effects/bending.hpp sim/effects/body.hpp sim/effects/damping.hpp sim/effects/effect.hpp sim/effects/field.hpp
+  sim/body_shape.hpp sim/cloth.hpp sim/state.hpp sim/state.hpp sim/cloth.hpp sim/state.hpp sim/settings.hpp sim/tracks.hpp
+  sim/mesh.hpp sim/mesh.hpp sim/body_shape.hpp sim/settings.hpp sim/simulation.hpp sim/tracks.hpp sim/state.hpp sim/state.hpp sim/settings.hpp
+  sim/effects/wind.hpp sim/effects/bending.hpp sim/effects/body.hpp sim/effects/damping.hpp sim/effects/effect.hpp sim/effects/field.hpp
   sim/effects/gravity.hpp sim/effects/ground.hpp sim/effects/moving_pins.hpp sim/effects/self_collision.hpp
   sim/effects/sphere.hpp sim/effects/strain_limit.hpp sim/effects/wind.hpp
-  scene/method_names.hpp scene/scene.hpp
-  render/backend.hpp render/image.hpp render/renderer.hpp render/settings.hpp render/view.hpp)
+  scene/scene.hpp scene/scene.hpp
+  render/settings.hpp render/image.hpp render/renderer.hpp render/settings.hpp render/view.hpp)
 set(included_headers
-  core/keyframe.hpp core/rgb.hpp overlay/fonts.hpp overlay/pen.hpp overlay/settings.hpp overlay/text_template.hpp scene/check_settings.hpp
-  scene/document.hpp scene/portable.hpp sim/effects/gusts.hpp sim/schemes/method_choice.hpp sim/solvers/accuracy.hpp)
+  core/rotation.hpp core/rgb.hpp render/overlay/fonts.hpp render/overlay/pen.hpp render/overlay/caption.hpp render/overlay/caption.hpp scene/scene.hpp
+  scene/document.hpp scene/portable.hpp sim/effects/wind.hpp sim/schemes/method_choice.hpp sim/solvers/accuracy.hpp)
 install(CODE "
   foreach(header ${public_headers} ${included_headers})
     file(READ \"${PROJECT_SOURCE_DIR}/\${header}\" text)

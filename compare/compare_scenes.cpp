@@ -2,26 +2,157 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
+#include <iterator>
+#include <set>
+#include <string_view>
 
 #include "compare/page.hpp"
 #include "compare/panels.hpp"
-#include "compare/synchronised_motions.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "output/contact_sheet.hpp"
-#include "output/motion_packer.hpp"
+#include "output/html_writer.hpp"
 #include "output/png_encoder.hpp"
-#include "output/poster_frame.hpp"
 #include "output/registry.hpp"
 #include "render/view.hpp"
+#include "run/frame_player.hpp"
 #include "run/outputs.hpp"
-#include "scene/method_names.hpp"
+#include "scene/scene.hpp"
 
 namespace drape {
+namespace {
+
+constexpr double same_place = 1e-3;  // tolerance, in mean edge lengths
+
+VertexMatch match(const Cloth& cloth, const Cloth& first) {
+  VertexMatch found;
+  found.comparable = cloth.vertex_count() == first.vertex_count();
+  if (!found.comparable || cloth.triangles == first.triangles) return found;
+  const double tolerance = same_place * mean_edge(first.positions, first.triangles);
+  if ((cloth.positions - first.positions).rowwise().norm().maxCoeff() <= tolerance) return found;
+  if (auto order = match_vertices(cloth.positions, first.positions, tolerance)) {
+    found.order = std::move(*order);
+    found.note = "its vertices are in another order than the first motion's, and are matched by the first frame";
+  } else {
+    found.note =
+        "its triangles are not the first motion's, nor is its first frame: vertices of the same number are compared";
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<VertexMatch> match_scenes(const std::vector<Scene>& scenes) {
+  std::vector<VertexMatch> all;
+  for (const Scene& scene : scenes) all.push_back(match(scene.simulation.cloth, scenes.front().simulation.cloth));
+  return all;
+}
+
+namespace {
+
+constexpr std::size_t most_named = 4;  // in a label; the page lists all differences
+constexpr const char *absent = "–", *present = "there";
+
+bool counts(const std::string& key) {
+  constexpr std::array<std::string_view, 5> taken_from_first{"camera.", "video.", "caption.", "overlay.", "check."};
+  return key != "scene" && std::ranges::none_of(taken_from_first, [&](auto table) { return key.starts_with(table); });
+}
+
+/// Returns the effect of an effect's key: "effects.sphere"; empty for other keys.
+std::string effect_of(const std::string& key) {
+  return key.starts_with("effects.") ? key.substr(0, key.rfind('.')) : std::string();
+}
+
+bool has_effect(const Scene& scene, const std::string& effect) {
+  return std::ranges::any_of(scene.fields, [&](const SceneField& field) { return effect_of(field.path) == effect; });
+}
+
+std::string text_of(const Scene& scene, const std::string& key) {
+  const auto field = std::ranges::find(scene.fields, key, &SceneField::path);
+  return field == scene.fields.end() ? absent : format_field(field->value, "");
+}
+
+bool all_same(const std::vector<std::string>& values) {
+  return std::ranges::all_of(values, [&](const std::string& value) { return value == values.front(); });
+}
+
+/// Returns distinct names: the scenes' names, else their file names, else their paths; the scenes' names by default.
+std::vector<std::string> names_of(const std::vector<Scene>& scenes) {
+  std::vector<std::vector<std::string>> choices(3);
+  for (const Scene& scene : scenes) {
+    choices[0].push_back(scene.name);
+    choices[1].push_back(scene.file.filename().string());
+    choices[2].push_back(scene.file.string());
+  }
+  for (const std::vector<std::string>& names : choices) {
+    if (std::set(names.begin(), names.end()).size() == names.size()) return names;
+  }
+  return choices[0];
+}
+
+/// Returns "method = liu13"; the value alone for a method or scheme.
+std::string difference_text(const KeyDifference& difference, std::size_t scene) {
+  const std::string& value = difference.values[scene];
+  if (effect_of(difference.key) == "effects") {
+    return (value == absent ? "no " : "") + difference.key.substr(std::string_view("effects.").size());
+  }
+  const std::string name = difference.key.substr(difference.key.rfind('.') + 1);
+  if (name == "method" || name == "scheme") return value;
+  const bool effect = difference.key.starts_with("effects.");
+  return (effect ? difference.key.substr(std::string_view("effects.").size()) : name) + " = " + value;
+}
+
+}  // namespace
+
+std::vector<KeyDifference> differences(const std::vector<Scene>& scenes) {
+  // A motion from another program has no keys to compare.
+  if (std::ranges::any_of(scenes, [](const Scene& scene) { return scene.fields.empty(); })) return {};
+  std::vector<std::string> keys;
+  for (const Scene& scene : scenes) {
+    for (const SceneField& field : scene.fields) {
+      // Report an effect that some scenes lack as one difference, without its keys.
+      const std::string effect = effect_of(field.path);
+      const bool shared =
+          effect.empty() || std::ranges::all_of(scenes, [&](const Scene& other) { return has_effect(other, effect); });
+      const std::string& key = shared ? field.path : effect;
+      if (counts(key) && std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+    }
+  }
+  std::vector<KeyDifference> found;
+  for (const std::string& key : keys) {
+    KeyDifference difference{key, {}};
+    const bool is_effect = effect_of(key) == "effects";
+    for (const Scene& scene : scenes) {
+      difference.values.push_back(!is_effect ? text_of(scene, key) : has_effect(scene, key) ? present : absent);
+    }
+    if (!all_same(difference.values)) found.push_back(std::move(difference));
+  }
+  return found;
+}
+
+std::vector<std::string> labels(const std::vector<Scene>& scenes, const std::vector<KeyDifference>& differences) {
+  std::vector<KeyDifference> told;  // without keys of the look, which is visible
+  std::ranges::copy_if(differences, std::back_inserter(told),
+                       [](const KeyDifference& difference) { return !difference.key.starts_with("look."); });
+  std::vector<std::string> names;
+  std::ranges::transform(scenes, std::back_inserter(names), &Scene::name);
+  const bool named = told.empty() || !all_same(names);
+  if (told.empty()) names = names_of(scenes);
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    std::string label = named ? names[i] : "", rest;
+    for (std::size_t d = 0; d < std::min(told.size(), most_named); ++d) {
+      rest += (rest.empty() ? "" : ", ") + difference_text(told[d], i);
+    }
+    if (told.size() > most_named) rest += ", …";
+    labels.push_back(label.empty() || rest.empty() ? label + rest : label + ": " + rest);
+  }
+  return labels;
+}
+
 namespace {
 
 constexpr int most_page_pictures = 75, most_page_moments = 25;
@@ -289,6 +420,86 @@ void require_comparison(const std::vector<Scene>& scenes, const CompareOptions& 
 CompareResult compare_scenes(const std::vector<Scene>& scenes, const CompareOptions& options,
                              const std::stop_token& stop, Progress& progress) {
   return Comparison(scenes, options, stop, progress).run();
+}
+
+namespace {
+
+/// Combines the vertices and colliders of all motions at a moment.
+Frame together(const SynchronisedMotions::Moment& moment) {
+  Frame all{};
+  Eigen::Index rows = 0;
+  for (const Frame* frame : moment) rows += frame->positions.rows();
+  all.positions.resize(rows, 3);
+  rows = 0;
+  for (const Frame* frame : moment) {
+    all.positions.middleRows(rows, frame->positions.rows()) = frame->positions;
+    rows += frame->positions.rows();
+    all.colliders.insert(all.colliders.end(), frame->colliders.begin(), frame->colliders.end());
+  }
+  return all;
+}
+
+}  // namespace
+
+FilmExtent compared_extent(const std::vector<Scene>& scenes, const CompareOptions& options, std::size_t i) {
+  const Scene& scene = scenes[i];
+  const std::int64_t steps =
+      options.recorded.empty() || !options.recorded[i] ? scene.step_count() : options.recorded[i]->last_step();
+  return FilmExtent(scenes.front().video, scene.simulation.step, options.steps.value_or(steps), std::nullopt);
+}
+
+FrameRange all_frames(const std::vector<Scene>& scenes, const CompareOptions& options) {
+  FrameRange all;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    all.last = std::max(all.last, compared_extent(scenes, options, i).frames.last);
+  }
+  return all;
+}
+
+SynchronisedMotions::SynchronisedMotions(const std::vector<Scene>& scenes, const CompareOptions& options, bool often)
+    : scenes_(scenes), first_count_(compared_extent(scenes, options, 0).frames.count()) {
+  const std::optional<std::size_t> memory =
+      often ? std::optional(FrameTape::usual_memory / scenes.size()) : std::nullopt;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    sources_.emplace_back(scenes[i], options.recorded.empty() ? nullptr : options.recorded[i],
+                          compared_extent(scenes, options, i), memory);
+  }
+}
+
+void SynchronisedMotions::play(int last, const std::stop_token& stop,
+                               const std::function<void(int, const Moment&)>& work) {
+  std::deque<FramePlayer> players;  // a deque, since players cannot be moved
+  for (FrameSource& source : sources_) players.emplace_back(source);
+  Moment moment(players.size());
+  for (int k = 0; k <= last && !stop.stop_requested(); ++k) {
+    for (std::size_t i = 0; i < players.size(); ++i) moment[i] = &players[i].next();
+    work(k, moment);
+  }
+  // A motion counts as known after its last frame: ask for one more.
+  for (std::size_t i = 0; i < players.size() && !stop.stop_requested(); ++i) players[i].next();
+}
+
+std::optional<CameraPath> SynchronisedMotions::camera_path(int count, const std::stop_token& stop) {
+  const Scene& first = scenes_.front();
+  struct Stopped {};
+  const auto go_on = [&] {
+    if (stop.stop_requested()) throw Stopped();
+  };
+  try {
+    Camera camera = first.camera;
+    if (!camera.position) {
+      camera = well_placed(camera, known_film(first, first.video.size, first_count_, [&](const auto& visit) {
+                             sources_.front().pass(visit, stop);
+                             go_on();
+                           }));
+    }
+    return drape::camera_path(camera, known_film(first, first.video.size, count, [&](const auto& visit) {
+                                play(count - 1, stop, [&](int, const Moment& moment) { visit(together(moment)); });
+                                go_on();
+                              }));
+  } catch (const Stopped&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace drape

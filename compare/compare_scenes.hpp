@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -7,15 +9,42 @@
 #include <utility>
 #include <vector>
 
-#include "compare/differences.hpp"
-#include "html/motion_player.hpp"
-#include "output/format.hpp"
-#include "render/backend.hpp"
+#include "motion/vertex_order.hpp"
+#include "output/registry.hpp"
+#include "render/camera_path.hpp"
+#include "render/settings.hpp"
+#include "reports/players.hpp"
+#include "run/frame_source.hpp"
 #include "run/progress.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {
+
+/// A mapping of a scene's vertices to those of the first scene.
+struct VertexMatch {
+  bool comparable = true;  ///< both have the same number of vertices
+  VertexOrder order;       ///< index in the first scene, by vertex of this scene; empty: equal indices
+  std::string note;        ///< end of a sentence that begins with the scene's name, unless indices are equal
+};
+
+/// Matches the vertices of each scene with those of the first. Indices are kept if the triangles or the start positions
+/// are the same. Otherwise vertices are matched by their start positions, if possible.
+std::vector<VertexMatch> match_scenes(const std::vector<Scene>& scenes);
+
+/// A key with different values in some scenes.
+struct KeyDifference {
+  std::string key;                  ///< "integrator.method"
+  std::vector<std::string> values;  ///< values by scene; "–" for a missing key
+};
+
+/// Returns the keys that differ, given or by default. Excludes keys that a comparison takes from its first scene:
+/// camera, film, caption and overlay.
+std::vector<KeyDifference> differences(const std::vector<Scene>& scenes);
+
+/// Returns a label for each scene that tells it from the others: "liu13, tolerance = 0.001". Uses the scenes' names if
+/// they differ, or if nothing else does.
+std::vector<std::string> labels(const std::vector<Scene>& scenes, const std::vector<KeyDifference>& differences);
 
 /// Options of a comparison.
 struct CompareOptions {
@@ -73,5 +102,36 @@ void require_comparison(const std::vector<Scene>& scenes, const CompareOptions& 
 /// @param scenes at least two
 CompareResult compare_scenes(const std::vector<Scene>& scenes, const CompareOptions& options,
                              const std::stop_token& stop, Progress& progress);
+
+/// Returns the frames of a comparison, up to the end of the longest motion.
+FrameRange all_frames(const std::vector<Scene>& scenes, const CompareOptions& options);
+
+/// The motions of a comparison, each at the times of the first scene's film. Each motion is simulated once, for any
+/// number of passes, or read from its file. Frames beyond a memory limit are stored in temporary files.
+class SynchronisedMotions {
+ public:
+  /// The current frame of each motion. A motion that has ended or diverged keeps its last frame.
+  using Moment = std::vector<const Frame*>;
+
+  /// @param scenes outlive the object
+  /// @param often  true if the motions are played more than once, always from start to end
+  SynchronisedMotions(const std::vector<Scene>& scenes, const CompareOptions& options, bool often);
+
+  /// Plays all motions from the start; calls work(k, moment) for each frame k up to `last`. Ends early when stopped.
+  void play(int last, const std::stop_token& stop, const std::function<void(int, const Moment&)>& work);
+
+  /// Returns the i-th motion, as far as it was played.
+  [[nodiscard]] const FrameSource& motion(std::size_t i) const { return sources_[i]; }
+
+  /// Returns the first scene's camera for `count` frames, with all motions in view. A direction that the scene leaves
+  /// open is that of its own film.
+  /// @returns nothing if stopped before that is known
+  std::optional<CameraPath> camera_path(int count, const std::stop_token& stop);
+
+ private:
+  const std::vector<Scene>& scenes_;
+  int first_count_;  // frames of the first motion's film
+  std::deque<FrameSource> sources_;
+};
 
 }  // namespace drape

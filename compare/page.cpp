@@ -1,16 +1,14 @@
 #include "compare/page.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 
 #include "core/text.hpp"
-#include "html/chart.hpp"
-#include "html/components.hpp"
-#include "html/film.hpp"
-#include "html/page.hpp"
-#include "study/method_series.hpp"
+#include "reports/chart.hpp"
+#include "reports/components.hpp"
+#include "reports/page.hpp"
+#include "reports/players.hpp"
 
 namespace drape {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "compare/compare_scenes.hpp"
-#include "figures/diagram_files.hpp"
+#include "reports/diagram_files.hpp"
 
 namespace drape {
 

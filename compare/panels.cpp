@@ -1,15 +1,14 @@
 #include "compare/panels.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
-#include "overlay/caption.hpp"
-#include "overlay/color_bar.hpp"
-#include "overlay/color_map.hpp"
-#include "render/montage.hpp"
+#include "render/image.hpp"
+#include "render/overlay/caption.hpp"
+#include "render/overlay/color_scale.hpp"
+#include "render/overlay/diagrams.hpp"
 
 namespace drape {
 namespace {

@@ -4,11 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "compare/differences.hpp"
-#include "compare/vertex_matches.hpp"
-#include "overlay/color_scale.hpp"
-#include "overlay/pen.hpp"
-#include "overlay/vertex_coloring.hpp"
+#include "compare/compare_scenes.hpp"
+#include "render/overlay/color_scale.hpp"
+#include "render/overlay/pen.hpp"
 #include "render/renderer.hpp"
 #include "scene/scene.hpp"
 

@@ -2,9 +2,11 @@
 
 #include <fcntl.h>
 #include <unistd.h>
-
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
+#include <string_view>
 
 #include "core/text.hpp"
 
@@ -43,5 +45,18 @@ int lost_output() {
   const int error_number = first_error;
   return error_number == EPIPE ? 0 : error_number;
 }
+
+std::string shell_word(const std::string& word) {
+  constexpr std::string_view harmless = "%+,-./:=@_";
+  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [&](unsigned char c) {
+    return std::isalnum(c) != 0 || harmless.find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string shell_file(const std::string& file) { return shell_word(file.starts_with('-') ? "./" + file : file); }
 
 }  // namespace drape

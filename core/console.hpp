@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <mutex>
+#include <string>
 #include <string_view>
 
 namespace drape {
@@ -24,5 +25,11 @@ std::mutex& console_mutex();
 /// Returns the error number if standard output lost text or cannot be flushed, otherwise 0. A reader that closed the
 /// pipe (EPIPE) is no error.
 int lost_output();
+
+/// Quotes a word for the shell if it needs quotes.
+std::string shell_word(const std::string& word);
+
+/// Quotes a file name for the shell and prefixes "./" if it begins with a dash, so that it cannot be an option.
+std::string shell_file(const std::string& file);
 
 }  // namespace drape

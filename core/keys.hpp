@@ -15,8 +15,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/keyframe.hpp"
 #include "core/rgb.hpp"
+#include "core/rotation.hpp"
 
 namespace drape {
 

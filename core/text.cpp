@@ -1,7 +1,6 @@
 #include "core/text.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -128,6 +127,133 @@ std::string base64(std::string_view bytes) {
     for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;
+}
+
+namespace {
+
+constexpr std::size_t least_room = 20;      // columns that must remain after the indent
+constexpr std::size_t description_at = 30;  // column of CLI11's descriptions
+
+std::size_t indent_of(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(' ');
+  return first == std::string_view::npos ? 0 : first;
+}
+
+std::string wrapped_line(std::string_view line, std::size_t width, std::size_t indent) {
+  if (columns_of(line) <= width || width < indent + least_room) return std::string(line);
+  const std::size_t begin = indent_of(line);
+  std::string text(begin, ' ');
+  std::size_t used = begin;
+  bool at_start = true;  // of a line of the result
+  for (std::size_t at = begin; at < line.size();) {
+    // A word with the spaces before it; they are dropped only where the line is broken.
+    const std::size_t word = std::min(line.find_first_not_of(' ', at), line.size());
+    const std::size_t end = std::min(line.find(' ', word), line.size());
+    const std::string_view spaces = line.substr(at, word - at), letters = line.substr(word, end - word);
+    if (!at_start && used + spaces.size() + columns_of(letters) > width) {
+      text.append("\n").append(indent, ' ').append(letters);
+      used = indent + columns_of(letters);
+    } else {
+      text.append(spaces).append(letters);
+      used += spaces.size() + columns_of(letters);
+    }
+    at_start = false;
+    at = end;
+  }
+  return text;
+}
+
+template <class Indent>
+std::string wrapped_lines(std::string_view text, std::size_t width, Indent indent) {
+  if (width == unlimited_width) return std::string(text);
+  std::string result;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = text.substr(begin, end - begin);
+    result += wrapped_line(line, width, indent(line));
+    if (end < text.size()) result += '\n';
+    begin = end + 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::size_t columns_of(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
+}
+
+std::string wrapped(std::string_view text, std::size_t width, std::size_t hanging) {
+  return wrapped_lines(text, width, [hanging](std::string_view line) { return indent_of(line) + hanging; });
+}
+
+std::string wrapped_help(std::string_view text, std::size_t width) {
+  return wrapped_lines(text, width, [](std::string_view line) {
+    const bool described = line.size() > description_at && indent_of(line) > 0 && line[description_at - 1] == ' ' &&
+                           line[description_at] != ' ';
+    return described ? description_at : indent_of(line) + 2;
+  });
+}
+
+namespace {
+
+std::string folded(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (c == '-' || c == ' ') c = '_';
+  }
+  return result;
+}
+
+}  // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before.swap(last);
+    last.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, substituted});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+std::string nearest_name(std::string_view name, std::span<const std::string> names) {
+  // Names are short: for a longer text the quadratic distance would only cost time.
+  constexpr std::size_t longest_name = 64;
+  if (name.size() > longest_name) return {};
+
+  const std::string wanted = folded(name);
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;
+  for (const std::string& candidate : names) {
+    const std::size_t distance = edit_distance(wanted, folded(candidate));
+    if (distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+std::string did_you_mean(std::string_view name, std::span<const std::string> names, std::string_view kind) {
+  const std::string nearest = nearest_name(name, names);
+  if (!nearest.empty()) return "; did you mean '" + nearest + "'?";
+  return names.empty() ? "" : "; " + std::string(kind) + " " + quoted_list(names);
+}
+
+std::string quoted_list(std::span<const std::string> names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
+  return list;
 }
 
 }  // namespace drape

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "core/build_info.hpp"
-#include "motion/packing.hpp"
+#include "motion/blocks.hpp"
 
 namespace drape {
 namespace {

@@ -1,13 +1,17 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "motion/block_reader.hpp"
+#include "core/files.hpp"
+#include "motion/blocks.hpp"
 #include "motion/header.hpp"
 #include "motion/state_codec.hpp"
+#include "scene/scene.hpp"
 
 namespace drape {
 
@@ -68,5 +72,52 @@ class MotionReader {
   State state_;
   std::vector<StepRow> rows_;  // rows of the last block read
 };
+
+/// The scene of a motion, unpacked into a temporary folder for the lifetime of this object, e.g. for its texture.
+class MotionScene {
+ public:
+  /// @throws UsageError  if the unpacked scene no longer matches the motion
+  /// @throws OutputError if it cannot be written to disk
+  explicit MotionScene(const MotionReader& motion);
+
+  /// Returns the scene as it was when the motion was computed.
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// Loads the scene with overrides, see load_scene().
+  [[nodiscard]] Scene load(const std::vector<std::string>& overrides) const;
+
+ private:
+  TemporaryFolder folder_;
+  std::filesystem::path file_;
+  Scene scene_;
+};
+
+/// Checks that two scenes have the same physics.
+/// @param name name of the source of `other`
+/// @throws UsageError that lists the keys that differ
+void require_same_physics(const std::string& motion, const Scene& scene, const Scene& other, const std::string& name);
+
+/// Data to resume a motion whose run ended early.
+struct ResumePoint {
+  std::shared_ptr<MotionReader> partial;  ///< reader of the valid part of the growing file
+  std::uint64_t length = 0;               ///< length of that part [bytes]
+  Simulation::Checkpoint checkpoint;
+  std::vector<StepRow> rows;        ///< rows of the last steps before the checkpoint, in no block yet
+  std::vector<float> microseconds;  ///< computing time of each step [µs]
+
+  /// Returns the row of any step up to the checkpoint.
+  [[nodiscard]] const StepRow& row(std::int64_t step) const;
+};
+
+/// Reads the checkpoint and the growing file of a run that ended early.
+/// @param file name of the complete motion
+/// @throws UsageError if there is no checkpoint, or it is damaged
+ResumePoint read_resumption(const std::filesystem::path& file);
+
+/// Returns the bytes of a checkpoint file.
+/// @param step   h [s]
+/// @param length length of the growing file [bytes]
+/// @param rows   rows in no block of it yet
+std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double step, std::uint64_t length,
+                            const std::vector<StepRow>& rows, std::span<const float> microseconds);
 
 }  // namespace drape

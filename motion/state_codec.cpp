@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "motion/packing.hpp"
+#include "motion/blocks.hpp"
 
 namespace drape {
 namespace {

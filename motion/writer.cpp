@@ -1,18 +1,15 @@
 #include "motion/writer.hpp"
 
 #include <fmt/format.h>
-
 #include <cstring>
 
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/file_identity.hpp"
-#include "core/names_in_folders.hpp"
-#include "core/read_file.hpp"
+#include "core/files.hpp"
+#include "core/installation.hpp"
 #include "core/text.hpp"
-#include "motion/checkpoint.hpp"
-#include "motion/packing.hpp"
-#include "scene/physics.hpp"
+#include "motion/blocks.hpp"
+#include "motion/reader.hpp"
+#include "scene/scene.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/block_writer.hpp"
+#include "motion/blocks.hpp"
 #include "motion/header.hpp"
 #include "motion/state_codec.hpp"
 #include "scene/scene.hpp"

@@ -1,22 +1,23 @@
 #include "output/gif_encoder.hpp"
 
 #include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "codecs/codecs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "output/codecs/codecs.hpp"
 #include "output/gif/film_writer.hpp"
 #include "output/gif/palette.hpp"
-#include "output/video_check.hpp"
+#include "output/png_encoder.hpp"
+#include "output/video_encoder.hpp"
 
 namespace drape {
 namespace {
 
-double checked_rate(const std::filesystem::path& file, double fps) {
+double gif_rate(const std::filesystem::path& file, double fps) {
   if (fps > 50) {
     throw UsageError(fmt::format(
         "cannot write {} at {} frames per second: a GIF can play at most 50, because it counts in hundredths of a "
@@ -33,7 +34,7 @@ double checked_rate(const std::filesystem::path& file, double fps) {
 }  // namespace
 
 GifEncoder::GifEncoder(const std::filesystem::path& file, double fps, std::function<void(int, int)> progress)
-    : fps_(checked_rate(file, fps)), file_(file), progress_(std::move(progress)), spool_(file_) {
+    : fps_(gif_rate(file, fps)), file_(file), progress_(std::move(progress)), spool_(file_) {
   codecs();  // finish() reads the file back: missing codecs are reported now
 }
 
@@ -74,6 +75,133 @@ OutputFormat gif_format() {
           .make = FilmMaker<Image>([](const std::filesystem::path& file, const FilmInfo& film) {
             return std::make_unique<GifEncoder>(file, film.fps, film.progress);
           })};
+}
+
+namespace {
+
+constexpr int narrowest = 16;      // least useful width [pixels]
+constexpr double least_rate = 10;  // least rate of a smooth motion [1/s]
+
+/// Estimates the width of a film of `bytes`, between two known ones, if size is a power of width.
+double interpolated_width(double small, double small_bytes, double wide, double wide_bytes, double bytes) {
+  const double power = std::log(wide_bytes / small_bytes) / std::log(wide / small);
+  return power > 0 ? small * std::pow(bytes / small_bytes, 1 / power) : (small + wide) / 2;
+}
+
+FilmInfo without_limit(FilmInfo film) {
+  film.largest_file.reset();
+  return film;
+}
+
+}  // namespace
+
+SizeLimitedEncoder::SizeLimitedEncoder(FilmMaker<Image> make, const std::filesystem::path& file, const FilmInfo& film)
+    : make_(std::move(make)),
+      film_(without_limit(film)),
+      limit_(film.largest_file.value()),
+      file_(file),
+      spool_(file_) {
+  make_(file, film_);  // reports errors now
+}
+
+void SizeLimitedEncoder::add(const Image& image) {
+  width_ = image.width;
+  height_ = image.height;
+  spool_.append(image);
+}
+
+int SizeLimitedEncoder::height_of(int width) const {
+  return std::max(1, static_cast<int>(std::lround(static_cast<double>(height_) * width / width_)));
+}
+
+SizeLimitedEncoder::Trial SizeLimitedEncoder::encode(int width, int stride) {
+  const std::filesystem::path trial =
+      file_.temporary().parent_path() / (".trial-" + file_.temporary().filename().string().substr(1));
+  FilmInfo film = film_;
+  film.width = width;
+  film.height = height_of(width);
+  film.fps /= stride;
+  film.seconds_per_frame *= stride;
+  film.expected_frames = (spool_.count() + stride - 1) / stride;
+  const std::unique_ptr<Encoder> encoder = make_(trial, film);
+  spool_.rewind();
+  for (int k = 0; k < spool_.count(); ++k) {
+    const Image& image = spool_.next();
+    if (k % stride == 0) encoder->add(scaled_image(image, film.width, film.height));
+  }
+  const Trial done{width, stride, encoder->finish().at(0).size};
+  if (fits(done)) {
+    file_.adopt(trial);
+  } else {
+    std::filesystem::remove(trial);
+  }
+  return done;
+}
+
+SizeLimitedEncoder::Trial SizeLimitedEncoder::find_largest() {
+  const Trial whole = encode(width_, 1);
+  if (fits(whole)) return whole;
+  if (limit_.keeps == FilmKeeps::size) return find_stride(whole, spool_.count() - 1);
+  if (limit_.keeps == FilmKeeps::rate) return find_width(1, narrowest);
+  const int half = std::max(narrowest, (width_ + 1) / 2);
+  const Trial small = find_width(1, half);
+  if (fits(small)) return small;
+  const Trial slow = find_stride(small, std::min(static_cast<int>(film_.fps / least_rate), spool_.count() - 1));
+  return find_width(slow.stride, fits(slow) ? half : narrowest);
+}
+
+SizeLimitedEncoder::Trial SizeLimitedEncoder::find_stride(Trial trial, int most) {
+  while (!fits(trial) && trial.stride < most) trial = encode(trial.width, trial.stride + 1);
+  return trial;
+}
+
+SizeLimitedEncoder::Trial SizeLimitedEncoder::find_width(int stride, int least) {
+  Trial wide = encode(width_, stride), best{0, stride, 0};
+  if (fits(wide)) return wide;
+  const auto limit = static_cast<double>(limit_.bytes);
+  while (best.width == 0) {
+    if (wide.width <= least) return wide;
+    const double guess = 0.97 * wide.width * std::sqrt(limit / static_cast<double>(wide.bytes));
+    const Trial trial = encode(std::clamp(static_cast<int>(guess), least, wide.width - 1), stride);
+    (fits(trial) ? best : wide) = trial;
+  }
+  // Each trial takes at least an eighth off what is left, so that there are few of them whatever the sizes.
+  while (wide.width - best.width > std::max(1, best.width / 100)) {
+    const int part = std::max(1, (wide.width - best.width) / 8);
+    const double guess = interpolated_width(best.width, static_cast<double>(best.bytes), wide.width,
+                                            static_cast<double>(wide.bytes), 0.99 * limit);
+    const Trial trial = encode(std::clamp(static_cast<int>(guess), best.width + part, wide.width - part), stride);
+    (fits(trial) ? best : wide) = trial;
+  }
+  return best;
+}
+
+std::string SizeLimitedEncoder::changes(const Trial& kept) const {
+  std::string text;
+  if (kept.width != width_) {
+    text = fmt::format("{}x{} pixels instead of {}x{}", kept.width, height_of(kept.width), width_, height_);
+  }
+  if (kept.stride != 1) {
+    text += fmt::format("{}{:.3g} frames per second instead of {:g}", text.empty() ? "" : " and ",
+                        film_.fps / kept.stride, film_.fps);
+  }
+  return text;
+}
+
+void SizeLimitedEncoder::fail(const Trial& smallest) const {
+  const std::string given_up = changes(smallest);
+  throw OutputError(
+      fmt::format("cannot write {} with at most {} bytes: with {} it still has {}; {}", shown(file_.file()),
+                  limit_.bytes, given_up.empty() ? "all that it has to keep" : given_up, smallest.bytes,
+                  limit_.keeps == FilmKeeps::nothing ? "use fewer frames, with --frames" : "omit --keep"));
+}
+
+std::vector<OutputFile> SizeLimitedEncoder::finish(Ending ending) {
+  if (spool_.count() == 0) return {};
+  const Trial found = find_largest();
+  if (!fits(found)) fail(found);
+  const std::uintmax_t size = file_.commit(ending);
+  return {{file_.name(ending), size, changes(found)}};
 }
 
 }  // namespace drape

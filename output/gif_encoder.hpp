@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <string>
 
-#include "core/atomic_file.hpp"
-#include "output/format.hpp"
-#include "output/gif/color_histogram.hpp"
-#include "output/gif/frame_spool.hpp"
+#include "core/files.hpp"
+#include "output/gif/compactor.hpp"
+#include "output/gif/palette.hpp"
+#include "output/registry.hpp"
 
 namespace drape {
 
@@ -34,5 +36,51 @@ class GifEncoder : public Encoder {
 };
 
 OutputFormat gif_format();
+
+/// A film of limited file size. It keeps all pictures until the last is added, then encodes them at several sizes and
+/// rates to find the largest film that fits. Its duration is unchanged: it plays every n-th picture.
+///
+/// Pictures shrink first, down to half their width; then the rate falls, down to 10 per second, at half the width or
+/// more; then pictures shrink further. FilmKeeps excludes one of the two. The width is maximal to one percent, or one
+/// pixel; the rate is the first that fits. The result depends only on the pictures.
+class SizeLimitedEncoder final : public Encoder {
+ public:
+  /// @param make maker of the film's encoder at any size
+  /// @param film film with a limit for its file
+  /// @throws Error as `make`
+  SizeLimitedEncoder(FilmMaker<Image> make, const std::filesystem::path& file, const FilmInfo& film);
+
+  void add(const Image& image) override;
+
+  /// @throws OutputError also if nothing fits
+  std::vector<OutputFile> finish(Ending ending) override;
+
+ private:
+  /// A film of every `stride`-th picture, and its size.
+  struct Trial {
+    int width, stride;
+    std::uint64_t bytes;
+  };
+  [[nodiscard]] int height_of(int width) const;
+  [[nodiscard]] bool fits(const Trial& trial) const { return trial.bytes <= limit_.bytes; }
+  /// Encodes the film, and keeps the file if it fits.
+  Trial encode(int width, int stride);
+  /// Finds the best film. @returns the kept trial
+  Trial find_largest();
+  /// Finds the first stride from a trial's to `most` with which its width fits; otherwise returns the last trial.
+  Trial find_stride(Trial trial, int most);
+  /// Finds the largest width from `least` on that fits; otherwise returns `least`.
+  Trial find_width(int stride, int least);
+  /// Returns "240x200 pixels instead of 480x400 and 10 frames per second instead of 20".
+  [[nodiscard]] std::string changes(const Trial& kept) const;
+  [[noreturn]] void fail(const Trial& smallest) const;
+
+  FilmMaker<Image> make_;
+  const FilmInfo film_;
+  const FileLimit limit_;
+  PartialFile file_;
+  gif::FrameSpool spool_;
+  int width_ = 0, height_ = 0;  // of the added pictures
+};
 
 }  // namespace drape

@@ -2,20 +2,18 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <algorithm>
+#include <stdexcept>
 
 #include "core/error.hpp"
-#include "core/nearest.hpp"
-#include "output/animation_encoder.hpp"
+#include "core/text.hpp"
 #include "output/gif_encoder.hpp"
 #include "output/glb_writer.hpp"
 #include "output/html_writer.hpp"
+#include "output/mesh_writers.hpp"
 #include "output/npz_writer.hpp"
-#include "output/obj_writer.hpp"
-#include "output/pc2_writer.hpp"
-#include "output/ply_writer.hpp"
 #include "output/png_encoder.hpp"
+#include "output/sink.hpp"
 #include "output/usd_writer.hpp"
 #include "output/video_encoder.hpp"
 #include "output/vtk_writer.hpp"
@@ -102,6 +100,151 @@ std::string output_reference() {
                         format.drawn() ? "" : ", `drape simulate`");
   }
   return text + "\n";
+}
+
+const std::vector<Triangle>& FilmInfo::triangles() const {
+  static const std::vector<Triangle> none;
+  return cloth != nullptr ? cloth->triangles : none;
+}
+
+const std::vector<std::array<float, 2>>& FilmInfo::texture_coordinates() const {
+  static const std::vector<std::array<float, 2>> none;
+  return uvs != nullptr ? *uvs : none;
+}
+
+bool OutputFormat::drawn() const {
+  return std::holds_alternative<FilmMaker<Image>>(make) || std::holds_alternative<FrameMaker<Image>>(make);
+}
+
+bool OutputFormat::file_per_frame() const {
+  return std::holds_alternative<FrameMaker<Image>>(make) || std::holds_alternative<FrameMaker<Frame>>(make);
+}
+
+namespace {
+
+/// Makes a film's sink for one file.
+struct AtFile {
+  const std::filesystem::path& file;
+  const FilmInfo& film;
+
+  template <class Item>
+  AnySink operator()(const FilmMaker<Item>& make) const {
+    if constexpr (std::is_same_v<Item, Image>) {
+      if (film.largest_file) return std::make_unique<SizeLimitedEncoder>(make, file, film);
+    }
+    return make(file, film);
+  }
+  template <class Item>
+  AnySink operator()(const FrameMaker<Item>& make) const {
+    return std::make_unique<LastFrameFile<Item>>(file, film.expected_frames - 1, make(film));
+  }
+  AnySink operator()(const OfSteps&) const { throw std::logic_error("a run writes its steps itself"); }
+};
+
+[[noreturn]] void fail_for_frame(const std::string& path, const OutputFormat& format) {
+  std::vector<std::string> others;
+  for (const OutputFormat& other : output_formats()) {
+    if (other.file_per_frame()) others.push_back(other.extension);
+  }
+  throw UsageError(fmt::format("the output {} has a {{frame}}, but a {} holds all frames; one file per frame make {}",
+                               path, format.extension, quoted_list(others)));
+}
+
+/// Makes a film's sink for one file per frame.
+struct AtFiles {
+  const std::string& text;  // text of the path
+  const PathTemplate& path;
+  const OutputFormat& format;
+  const FilmInfo& film;
+
+  template <class Item>
+  AnySink operator()(const FilmMaker<Item>&) const {
+    fail_for_frame(text, format);
+  }
+  AnySink operator()(const OfSteps&) const { fail_for_frame(text, format); }
+  template <class Item>
+  AnySink operator()(const FrameMaker<Item>& make) const {
+    const auto name = [path = path, scene = film.scene, width = frame_digits(film)](int frame) {
+      return path.path(scene, frame, width);
+    };
+    return std::make_unique<FrameFiles<Item>>(name, film.first_frame, make(film));
+  }
+};
+
+}  // namespace
+
+std::vector<std::string> output_files(const std::string& path, const FilmInfo& film) {
+  const PathTemplate path_template(path);
+  const int frames = std::max(1, film.expected_frames);
+  std::vector<std::string> files;
+  for (int i = 0; i < (path_template.has_frame() ? frames : 1); ++i) {
+    files.push_back(path_template.path(film.scene, film.first_frame + i, frame_digits(film)));
+  }
+  const OutputFormat* format = find_format(path);
+  if (format == nullptr || path_template.has_frame()) return files;
+  const std::filesystem::path file = files.front();
+  for (const char* beside : format->beside) {
+    for (int i = 0; i < (PathTemplate(beside).has_frame() ? frames : 1); ++i) {
+      files.push_back(file_beside(file, beside, film, film.first_frame + i));
+    }
+  }
+  return files;
+}
+
+AnySink make_sink(const std::string& path, const FilmInfo& film) {
+  const PathTemplate path_template(path);
+  const OutputFormat& format = format_of(path);
+  if (!path_template.has_frame()) {
+    const std::filesystem::path file = path_template.path(film.scene, 0, 1);
+    if (film.sheet && format.drawn() && format.file_per_frame()) return std::make_unique<ContactSheet>(file, film);
+    return make_sink(format, file, film);
+  }
+  return std::visit(AtFiles{path, path_template, format, film}, format.make);
+}
+
+AnySink make_sink(const OutputFormat& format, const std::filesystem::path& file, const FilmInfo& film) {
+  return std::visit(AtFile{file, film}, format.make);
+}
+
+namespace {
+
+void give_two_frames(Encoder& encoder) {
+  Image image(64, 64);
+  encoder.add(image);
+  std::fill(image.pixels.begin(), image.pixels.end(), std::uint8_t{200});
+  encoder.add(image);
+}
+
+void give_two_frames(MotionWriter& writer) {
+  Frame frame;
+  frame.positions = Vertices::Identity(3, 3);
+  frame.velocities = Vertices::Zero(3, 3);
+  frame.energies.emplace();
+  writer.add(frame);
+  frame.index = 1;
+  writer.add(frame);
+}
+
+}  // namespace
+
+std::string try_format(const OutputFormat& format, const std::filesystem::path& file) {
+  if (format.of_steps()) return "by drape itself";
+  Cloth cloth;
+  cloth.positions = cloth.rest = Vertices::Identity(3, 3);
+  cloth.velocities = Vertices::Zero(3, 3);
+  cloth.triangles = {{0, 1, 2}};
+  FilmInfo film;
+  film.expected_frames = 2;
+  film.cloth = &cloth;
+  const AnySink any = make_sink(format, file, film);
+  return std::visit(
+      [&](const auto& sink) {
+        give_two_frames(*sink);
+        sink->finish();
+        const std::string codec = sink->codec(), by = format.made_by.empty() ? "drape itself" : format.made_by;
+        return codec.empty() ? "by " + by : codec + ", by " + by;
+      },
+      any);
 }
 
 }  // namespace drape

@@ -2,12 +2,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "core/atomic_file.hpp"
+#include "core/files.hpp"
 #include "render/image.hpp"
-#include "sim/frame.hpp"
+#include "sim/state.hpp"
 
 namespace drape {
 
@@ -52,5 +56,84 @@ class Sink {
 
 using Encoder = Sink<Image>;       ///< takes drawn images
 using MotionWriter = Sink<Frame>;  ///< needs no rendering
+
+/// One file per frame, each of which appears complete. Files of an earlier, longer sequence stay.
+template <class Item>
+class FrameFiles final : public Sink<Item> {
+ public:
+  /// @param name  returns the file name of a frame's number
+  /// @param bytes returns the content of a frame's file
+  FrameFiles(std::function<std::string(int)> name, int first_frame, std::function<std::string(const Item&)> bytes)
+      : name_(std::move(name)), frame_(first_frame), bytes_(std::move(bytes)) {
+    const PartialFile writable(name_(frame_));  // throws if it is not writable
+  }
+
+  void add(const Item& item) override {
+    const std::string file = name_(frame_);
+    files_.push_back({file, write_file_atomically(file, bytes_(item))});
+    ++frame_;
+  }
+  std::vector<OutputFile> finish(Ending) override { return std::move(files_); }
+
+ private:
+  std::function<std::string(int)> name_;
+  int frame_;
+  std::function<std::string(const Item&)> bytes_;
+  std::vector<OutputFile> files_;
+};
+
+/// A single file of the last frame added.
+template <class Item>
+class LastFrameFile final : public Sink<Item> {
+ public:
+  /// @param last index of the film's last frame, from 0
+  LastFrameFile(std::filesystem::path file, int last, std::function<std::string(const Item&)> bytes)
+      : file_(std::move(file)), last_index_(last), bytes_(std::move(bytes)) {
+    const PartialFile writable(file_);  // throws if it is not writable
+  }
+
+  void add(const Item& item) override { last_ = item; }
+  [[nodiscard]] bool needs(int index) const override { return index >= last_index_; }
+
+  std::vector<OutputFile> finish(Ending ending) override {
+    if (!last_) return {};
+    PartialFile file(file_);
+    file.write(bytes_(*last_));
+    const std::uintmax_t size = file.commit(ending);
+    return {{file.name(ending), size}};
+  }
+
+ private:
+  std::filesystem::path file_;
+  int last_index_;
+  std::function<std::string(const Item&)> bytes_;
+  std::optional<Item> last_;
+};
+
+/// An output path with placeholders: {scene}, {frame}, {frame:04}; "{{" and "}}" stand for a brace.
+class PathTemplate {
+ public:
+  /// @throws UsageError that names the valid placeholders if it has an unknown one
+  explicit PathTemplate(std::string_view text);
+
+  /// Returns true if the path contains {frame}, so that each frame has its own file.
+  [[nodiscard]] bool has_frame() const;
+
+  /// @param default_width digits of a {frame} without a width; larger numbers get as many as they need
+  /// @throws UsageError if the scene's name leads out of a folder, see name_in_folder()
+  [[nodiscard]] std::string path(std::string_view scene, int frame, int default_width) const;
+
+ private:
+  struct Piece {
+    enum class Kind { text, scene, frame } kind;
+    std::string text;
+    int width = 0;  // digits of a frame's number; 0: the default
+  };
+
+  Piece placeholder(std::string_view inside) const;
+
+  std::string text_;
+  std::vector<Piece> pieces_;
+};
 
 }  // namespace drape

@@ -1,14 +1,24 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "core/spool.hpp"
-#include "output/collider_mesh.hpp"
-#include "output/format.hpp"
+#include "core/files.hpp"
+#include "output/mesh_writers.hpp"
+#include "output/registry.hpp"
+#include "render/settings.hpp"
 
 namespace drape {
+
+/// Returns "(r, g, b)" in linear light, USD's colour format.
+std::string usd_color(const Rgb& color);
+
+/// Returns the cloth's Material, a purely diffuse UsdPreviewSurface in the look's colour or texture.
+/// @param path  path of the prim: "/Scene/ClothMaterial"; indented for one level
+/// @param file  output file: the texture's path is relative to it
+std::string usd_material(const std::string& path, const Look& look, const std::filesystem::path& file);
 
 /// Time samples of an attribute. They wait on disk, because a USD file stores one attribute after the other.
 class UsdSamples {

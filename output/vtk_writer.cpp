@@ -1,16 +1,14 @@
 #include "output/vtk_writer.hpp"
 
 #include <fmt/format.h>
-
 #include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "core/text.hpp"
-#include "output/beside.hpp"
-#include "output/bytes.hpp"
-#include "sim/vertex_stretch.hpp"
+#include "output/mesh_writers.hpp"
+#include "sim/mesh.hpp"
 
 namespace drape {
 namespace {

@@ -2,20 +2,51 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
-
 #include <chrono>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "scene/document.hpp"
 #include "scene/scene.hpp"
-#include "sim/frame.hpp"
 #include "sim/simulation.hpp"
+#include "sim/state.hpp"
 
 namespace drape::python {
+
+/// Converts a dictionary, list, number, string, truth value or path to the value in a scene file; numpy's numbers and
+/// arrays become plain ones, tuples arrays.
+/// @throws pybind11::type_error naming the key of any other value, or of one nested deeper than any scene
+TomlValue to_toml(const pybind11::handle& value, const std::string& name = "", int depth = 0);
+
+/// Converts {"cloth.stiffness": 300} to overrides of the command line, "cloth.stiffness=300".
+std::vector<std::string> to_overrides(const pybind11::dict& set);
+
+/// Releases Python's lock during its lifetime, as pybind11::gil_scoped_release, also in a thread that outlives Python.
+/// An ending interpreter kills threads that retake the lock in the middle of C++, which aborts the process. Such a
+/// thread waits here until the process is over.
+class WithoutLock {
+ public:
+  WithoutLock();
+  ~WithoutLock();
+  WithoutLock(const WithoutLock&) = delete;
+  WithoutLock& operator=(const WithoutLock&) = delete;
+
+ private:
+  PyThreadState* thread_;
+};
+
+/// Calls work() with Python's lock, on a thread that has released it.
+/// @returns its result; true, without a call, if Python ends
+bool with_lock(bool (*work)());
+
+/// Makes the end of Python wait for all computing threads, for two seconds at most.
+void watch_end();
 
 /// A read-only n×3 array for Python with its own memory: it lives while Python refers to it, and shows the last values
 /// stored in it. A view of the simulation's own vectors would dangle, because schemes exchange them.

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "render/depth_map.hpp"
+#include "render/shadows.hpp"
 #include "sim/mesh.hpp"
 
 namespace drape {

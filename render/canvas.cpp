@@ -1,14 +1,13 @@
 #include "render/canvas.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "core/error.hpp"
-#include "render/color.hpp"
+#include "render/image.hpp"
 
 namespace drape {
 namespace {

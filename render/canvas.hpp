@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "render/covered_box.hpp"
-#include "render/gl/objects.hpp"
+#include "render/gl/program.hpp"
 #include "render/image.hpp"
 #include "render/settings.hpp"
+#include "render/shot.hpp"
 
 namespace drape {
 

@@ -1,19 +1,15 @@
 #include "render/renderer.hpp"
 
 #include <fmt/format.h>
-
 #include <optional>
 #include <span>
 #include <stdexcept>
 
 #include "render/canvas.hpp"
-#include "render/cloth_shadow.hpp"
-#include "render/covered_box.hpp"
-#include "render/draw_body.hpp"
 #include "render/draw_cloth.hpp"
-#include "render/draw_ground.hpp"
-#include "render/draw_sphere.hpp"
+#include "render/draw_obstacles.hpp"
 #include "render/gl/device.hpp"
+#include "render/shadows.hpp"
 #include "render/shot.hpp"
 
 namespace drape {

@@ -13,11 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "render/backend.hpp"
 #include "render/image.hpp"
 #include "render/settings.hpp"
 #include "render/view.hpp"
-#include "sim/frame.hpp"
+#include "sim/state.hpp"
 
 namespace drape {
 

@@ -4,6 +4,9 @@
 //   drape::Camera camera{.azimuth = -60, .elevation = 20};
 //   drape::Look look{.color = {0.2, 0.3, 0.8}, .mesh_lines = true};
 
+// Example:
+//   std::printf("%s", drape::backend_name(drape::GlBackend::osmesa));
+
 #include <Eigen/Core>
 #include <cmath>
 #include <filesystem>
@@ -83,5 +86,15 @@ struct Video {
     return std::floor(duration / (speed / fps) + rounding);
   }
 };
+
+/// Source of the OpenGL context. Both draw the same bytes on top of Mesa's software renderer.
+enum class GlBackend {
+  automatic,  ///< the first available of the following
+  osmesa,     ///< OSMesa: Mesa up to 25.0
+  egl         ///< EGL without a surface
+};
+
+/// Returns "auto", "osmesa" or "egl".
+const char* backend_name(GlBackend backend);
 
 }  // namespace drape

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "sim/mesh.hpp"
@@ -51,6 +53,53 @@ class SmoothSurface {
   bool divided_ = false;
   Eigen::SparseMatrix<double, Eigen::RowMajor> weights_;  // weights of the surface's vertices
   Eigen::SparseMatrix<double, Eigen::RowMajor> limits_;   // limit weights of its first vertices, those of the mesh
+};
+
+/// Returns the n×3 unit normals of the vertices. Each sums its triangles' normals, weighted by area, in the order of
+/// the triangles; flattened triangles have no weight. A vertex without a normal gets +z.
+Vertices vertex_normals(const Vertices& positions, const std::vector<Triangle>& triangles);
+
+/// Normalises a vector, even if its squared length overflows or underflows.
+inline Eigen::Vector3d unit_vector(const Eigen::Vector3d& v) {
+  return std::isnormal(v.squaredNorm()) ? v.normalized() : v.stableNormalized();
+}
+
+/// The rounded rim of a cloth: half a tube along its border edges, which have one triangle. It makes the cloth's
+/// thickness visible.
+class Hem {
+ public:
+  /// The corner of a piece that a vertex of the tube belongs to.
+  struct Corner {
+    int piece;
+    std::size_t corner;
+  };
+
+  /// @param surface surface to hem; its vertices precede the hem's
+  /// @param thickness thickness of the cloth [m]; 0: no hem
+  Hem(const SmoothSurface& surface, double thickness);
+
+  [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// Returns the adjacent piece of each triangle.
+  [[nodiscard]] const std::vector<int>& pieces() const { return pieces_; }
+  [[nodiscard]] const std::vector<Corner>& corners() const { return corners_; }
+
+  /// Appends the hem's vertices and the normals of its tube.
+  /// @param positions,normals positions and normals of the surface's vertices
+  void append(Vertices& positions, Vertices& normals) const;
+
+ private:
+  static constexpr int ring = 3;  // vertices around half a tube
+
+  /// A vertex of the border and its neighbours there, ordered with the cloth on the left.
+  struct BorderVertex {
+    int vertex, before, after;
+  };
+
+  double thickness_;
+  std::vector<BorderVertex> border_;
+  std::vector<Triangle> triangles_;
+  std::vector<int> pieces_;
+  std::vector<Corner> corners_;  // per vertex of the hem
 };
 
 }  // namespace drape

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "render/unit_vector.hpp"
+#include "render/smooth_surface.hpp"
 
 namespace drape {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "render/settings.hpp"
-#include "sim/frame.hpp"
+#include "sim/state.hpp"
 
 namespace drape {
 

@@ -1,13 +1,160 @@
 #include "run/frame_source.hpp"
 
+#include <fmt/format.h>
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
-#include "run/motion_frames.hpp"
-#include "run/run_steps.hpp"
+#include "run/frame_player.hpp"
+#include "run/run_scene.hpp"
+#include "sim/simulation.hpp"
 
 namespace drape {
+namespace {
+
+// A frame that falls on a step must be found despite the rounding of its decimal time [steps].
+constexpr double rounding = 1e-9;
+
+/// Returns the share of the interval between a time and the end of a step. It is exactly 0 at the end and 1 at the
+/// previous moment, `duration` seconds earlier.
+double part_back(double time, double end, double duration) {
+  const double back = std::clamp((end - time) / duration, 0.0, 1.0);
+  return back < rounding ? 0 : back;
+}
+
+Vertices between(const Vertices& now, const Vertices& before, double back) {
+  return back == 0 ? now : Vertices((1 - back) * now + back * before);
+}
+
+Energies between(const Energies& now, const Energies& before, double back) {
+  const auto blend = [back](double a, double b) { return back == 0 ? a : (1 - back) * a + back * b; };
+  return {.kinetic = blend(now.kinetic, before.kinetic),
+          .gravity = blend(now.gravity, before.gravity),
+          .elastic = blend(now.elastic, before.elastic)};
+}
+
+}  // namespace
+
+FilmExtent::FilmExtent(const Video& video, double h, std::int64_t step_count,
+                       const std::optional<FrameRange>& frame_range, std::optional<std::int64_t> every_steps)
+    : steps(step_count),
+      step(h),
+      every(every_steps),
+      seconds_per_frame(every ? static_cast<double>(*every) * h : video.speed / video.fps) {
+  const std::int64_t whole = every ? steps / *every : 0;
+  const double last = every ? static_cast<double>(whole) : video.last_frame(static_cast<double>(steps) * h);
+  if (last >= std::numeric_limits<int>::max()) throw UsageError("a film of more than two thousand million frames");
+  frames = frame_range.value_or(FrameRange{0, static_cast<int>(last)});
+  if (frames.last > last) {
+    throw UsageError(fmt::format("--frames {}..{}: the film ends with frame {}", frames.first, frames.last, last));
+  }
+  if (frame_range || every) {
+    steps = std::min(steps, static_cast<std::int64_t>(std::ceil(time(frames.last) / h - rounding)));
+  }
+}
+
+FrameInterpolator::FrameInterpolator(const FilmExtent& extent, Receiver receiver, FrameContents contents)
+    : extent_(extent), receiver_(std::move(receiver)), contents_(contents), next_(extent.frames.first) {}
+
+void FrameInterpolator::add(const Moment& moment) {
+  if (previous_.x.size() == 0) keep(moment);
+  while (!done() && extent_.time(next_) <= time_of(moment.state.step) + rounding * extent_.step) {
+    receiver_(frame(next_++, moment));
+  }
+  keep(moment);
+}
+
+void FrameInterpolator::keep(const Moment& moment) {
+  previous_.x = moment.state.x;
+  previous_.step = moment.state.step;
+  const bool soon = !done() && extent_.time(next_) < time_of(moment.next) - rounding * extent_.step;
+  if (contents_ == FrameContents::places || !soon) return;
+  previous_.v = moment.state.v;
+  previous_energies_ = moment.energies();
+}
+
+Frame FrameInterpolator::frame(int index, const Moment& moment) const {
+  const double time = extent_.time(index), end = time_of(moment.state.step);
+  const auto steps = static_cast<double>(std::max<std::int64_t>(1, moment.state.step - previous_.step));
+  const double back = part_back(time, end, steps * extent_.step);
+  Frame frame{.index = index,
+              .time = time,
+              .positions = between(moment.state.x, previous_.x, back),
+              .colliders = moment.colliders(time),
+              .velocities = {},
+              .energies = {},
+              .iterations = moment.iterations};
+  if (contents_ == FrameContents::motion) {
+    frame.velocities = between(moment.state.v, previous_.v, back);
+    frame.energies = between(moment.energies(), previous_energies_, back);
+  }
+  return frame;
+}
+
+void FrameSampler::begin(const Simulation& simulation) { add(simulation, 0); }
+
+void FrameSampler::after_step(const Simulation& simulation, const StepReport& report, double) {
+  add(simulation, report.iterations);
+}
+
+void FrameSampler::add(const Simulation& simulation, int iterations) {
+  taker_.add({.state = simulation.state(),
+              .iterations = iterations,
+              .next = simulation.state().step + 1,
+              .energies = [&] { return simulation.energies(); },
+              .colliders = [&](double time) { return simulation.colliders(time); }});
+}
+
+namespace {
+
+std::size_t bytes_of(const Vertices& rows) { return static_cast<std::size_t>(rows.size()) * sizeof(double); }
+
+void append(Spool& spool, const Vertices& rows) {
+  const Eigen::Index count = rows.rows();
+  spool.append({reinterpret_cast<const char*>(&count), sizeof count});
+  spool.append({reinterpret_cast<const char*>(rows.data()), bytes_of(rows)});
+}
+
+Vertices next(Spool& spool) {
+  Eigen::Index count = 0;
+  spool.read(&count, sizeof count);
+  Vertices rows(count, 3);
+  spool.read(rows.data(), bytes_of(rows));
+  return rows;
+}
+
+}  // namespace
+
+void FrameTape::add(Frame frame) {
+  const std::size_t bytes = bytes_of(frame.positions) + bytes_of(frame.velocities);
+  if (!spool_ && bytes <= memory_) {
+    memory_ -= bytes;
+    ++in_memory_;
+  } else {
+    if (!spool_) spool_.emplace("the motion");
+    append(*spool_, std::exchange(frame.positions, {}));
+    append(*spool_, std::exchange(frame.velocities, {}));
+  }
+  frames_.push_back(std::move(frame));
+}
+
+void FrameTape::for_each(const std::function<void(const Frame&)>& visit, const std::stop_token& stop) {
+  if (spool_) spool_->rewind();
+  for (std::size_t i = 0; i < frames_.size() && !stop.stop_requested(); ++i) {
+    if (i < in_memory_) {
+      visit(frames_[i]);
+      continue;
+    }
+    Frame frame = frames_[i];
+    frame.positions = next(*spool_);
+    frame.velocities = next(*spool_);
+    visit(frame);
+  }
+}
 
 FrameSource::FrameSource(const Scene& scene, std::shared_ptr<MotionReader> recorded, const FilmExtent& extent,
                          std::optional<std::size_t> memory)

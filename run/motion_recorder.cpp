@@ -1,8 +1,9 @@
 #include "run/motion_recorder.hpp"
-#include "sim/make_system.hpp"
 
 #include <cmath>
 #include <utility>
+
+#include "sim/system.hpp"
 
 namespace drape {
 namespace {

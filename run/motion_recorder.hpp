@@ -6,11 +6,11 @@
 #include <string>
 #include <thread>
 
-#include "motion/checkpoint.hpp"
+#include "motion/reader.hpp"
 #include "motion/writer.hpp"
 #include "output/sink.hpp"
 #include "run/bounded_queue.hpp"
-#include "run/frame_sampler.hpp"
+#include "run/frame_source.hpp"
 #include "run/statistics.hpp"
 
 namespace drape {

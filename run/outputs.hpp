@@ -1,16 +1,98 @@
 #pragma once
 
+#include <array>
 #include <exception>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "output/make_sink.hpp"
-#include "render/texture_image.hpp"
-#include "run/poster.hpp"
+#include "output/png_encoder.hpp"
+#include "output/registry.hpp"
+#include "render/camera_path.hpp"
+#include "render/image.hpp"
+#include "render/overlay/color_scale.hpp"
+#include "render/overlay/diagrams.hpp"
+#include "render/overlay/pen.hpp"
+#include "render/renderer.hpp"
+#include "run/frame_source.hpp"
 #include "run/run_scene.hpp"
+#include "scene/scene.hpp"
 
 namespace drape {
+
+/// Returns the properties of a scene's film that its camera needs.
+/// @param size  of the pictures [pixels]
+/// @param count number of frames
+/// @param pass  see KnownFilm::pass; called only if the camera needs the motion
+inline KnownFilm known_film(const Scene& scene, const Eigen::Vector2i& size, int count,
+                            decltype(KnownFilm::pass) pass) {
+  return {.aspect = static_cast<double>(size.x()) / size.y(),
+          .fps = scene.video.fps,
+          .count = count,
+          .triangles = scene.simulation.cloth.triangles,
+          .look = scene.look,
+          .pass = std::move(pass)};
+}
+
+/// A film's additions to the rendered image: the caption, the colour bar, and the energy curves. Lives
+/// on the drawing thread; survey() is called earlier, by the thread that simulates.
+class Annotations {
+ public:
+  /// @throws OutputError if no font for the text is installed
+  explicit Annotations(const Scene& scene);
+
+  /// Returns true if the scene asks for any annotation.
+  static bool wanted(const Scene& scene);
+  /// Returns the size of the film's pictures, with the bands below the drawing [pixels].
+  static Eigen::Vector2i film_size(const Scene& scene);
+  /// Returns the scene's look for the renderer: a cloth coloured by vertex gets no texture.
+  static Look look(const Scene& scene);
+
+  /// Returns the frame data that the annotations need.
+  [[nodiscard]] FrameContents contents() const;
+
+  /// Returns true if the whole motion must be surveyed before the first frame is drawn.
+  [[nodiscard]] bool needs_motion() const;
+  /// Adds the next frame of the whole motion to the survey.
+  void survey(const Frame& frame);
+
+  /// Returns one colour per vertex of the frame; empty if the cloth keeps its own colour.
+  [[nodiscard]] std::vector<Rgb> colors(const Frame& frame) const;
+
+  /// Returns the film's picture of a frame.
+  /// @param drawn the renderer's image
+  [[nodiscard]] Image annotate(Image drawn, const Frame& frame);
+
+ private:
+  const Scene& scene_;
+  Pen pen_;
+  std::optional<VertexColoring> coloring_;
+  std::vector<double> times_;        // times of the surveyed frames [s]
+  std::vector<Curve> energies_;      // energies of the surveyed frames [J]
+  std::optional<CurveBand> curves_;  // made when the first frame is drawn
+  std::optional<Image> bar_;         // made when the first frame is drawn
+};
+
+/// A film's poster: the picture of its PosterFrame.
+class Poster {
+ public:
+  explicit Poster(const FilmInfo& film) : frames_(film.triangles()) {}
+
+  void see(const Frame& frame, const Image& image);
+
+  /// Returns the poster; absent until the first frame was seen.
+  [[nodiscard]] const std::optional<Image>& image() const { return image_; }
+  [[nodiscard]] int frame() const { return frame_; }
+
+ private:
+  PosterFrame frames_;
+  std::optional<Image> image_;
+  int frame_ = 0;
+};
+
+/// Returns the names of the posters of these outputs: "film.poster.png" beside each film that is drawn.
+std::vector<std::string> poster_files(const std::vector<std::string>& outputs, const FilmInfo& film);
 
 /// Returns the times of the frames that a run of a scene shows.
 /// @throws UsageError if the motion has no such frames
@@ -98,6 +180,33 @@ class Outputs {
   std::vector<Image> held_;       // the film's images
   std::size_t poster_place_ = 0;  // index of the poster among them
   std::vector<std::string> problems_;
+};
+
+/// Painter of a film's pictures, with the scene's annotations. Lives on the thread that owns the OpenGL context.
+class FilmPainter {
+ public:
+  /// @param annotations absent if the scene asks for none
+  FilmPainter(const Scene& scene, const CameraPath& path, std::optional<Annotations>& annotations, GlBackend backend)
+      : path_(path),
+        annotations_(annotations),
+        renderer_(data_folder(), scene.video.size, path.at(0), Annotations::look(scene),
+                  scene.simulation.cloth.vertex_count(), scene.simulation.cloth.triangles, scene.uvs, backend) {
+    renderer_.set_weave(scene.simulation.cloth.rest, scene.uvs);
+  }
+
+  [[nodiscard]] std::string description() const { return renderer_.description(); }
+
+  Image paint(const Frame& frame) {
+    renderer_.look_from(path_.at(frame.index));
+    if (!annotations_) return renderer_.draw(frame);
+    const std::vector<Rgb> colors = annotations_->colors(frame);
+    return annotations_->annotate(colors.empty() ? renderer_.draw(frame) : renderer_.draw(frame, colors), frame);
+  }
+
+ private:
+  const CameraPath& path_;
+  std::optional<Annotations>& annotations_;
+  Renderer renderer_;
 };
 
 }  // namespace drape

@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "core/atomic_file.hpp"
+#include "core/files.hpp"
+#include "motion/reader.hpp"
 #include "run/statistics.hpp"
-#include "run/step_observer.hpp"
+#include "scene/scene.hpp"
 
 namespace drape {
 
@@ -47,5 +48,13 @@ class Records {
   std::unique_ptr<EnergyLog> energies_;
   std::unique_ptr<TraceLog> trace_;
 };
+
+/// Writes the records of a complete motion from its file, without simulating it again. A motion file has no step times:
+/// they are empty in the trace and null in the statistics.
+/// @param scene of the motion
+/// @returns the names of the files written
+/// @throws UsageError  if the motion is damaged
+/// @throws OutputError if a record cannot be written
+std::vector<std::string> write_records(MotionReader& motion, const Scene& scene, const RecordPaths& paths);
 
 }  // namespace drape

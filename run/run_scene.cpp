@@ -2,28 +2,120 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <filesystem>
 #include <mutex>
 #include <stop_token>
 #include <thread>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/text.hpp"
 #include "render/camera_path.hpp"
-#include "run/annotations.hpp"
 #include "run/bounded_queue.hpp"
-#include "run/film_painter.hpp"
-#include "run/frame_tape.hpp"
-#include "run/known_film.hpp"
-#include "run/motion_frames.hpp"
+#include "run/frame_player.hpp"
+#include "run/frame_source.hpp"
 #include "run/outputs.hpp"
-#include "run/run_purposes.hpp"
-#include "run/run_steps.hpp"
-#include "run/thread_count.hpp"
+#include "run/shard.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
+namespace {
+
+class Watch final : public StepObserver {
+ public:
+  explicit Watch(const std::function<void(const StepReport&)>& after_step) : after_step_(after_step) {}
+  void after_step(const Simulation&, const StepReport& report, double) override { after_step_(report); }
+
+ private:
+  const std::function<void(const StepReport&)>& after_step_;
+};
+
+/// Replays the earlier steps to the observers.
+void replay(const ResumePoint& from, double h, std::span<StepObserver* const> observers) {
+  if (from.checkpoint.state.step == 0) return;  // a new run
+  for (std::int64_t step = 0; step <= from.checkpoint.state.step; ++step) {
+    const StepRow& row = from.row(step);
+    const double seconds =
+        step == 0 ? 0 : 1e-6 * static_cast<double>(from.microseconds[static_cast<std::size_t>(step - 1)]);
+    for (StepObserver* observer : observers) observer->replay(row, static_cast<double>(step) * h, seconds);
+  }
+}
+
+}  // namespace
+
+void require_whole(const ResumePoint& from, const Simulation& simulation) {
+  const Simulation::Checkpoint& kept = from.checkpoint;
+  const System system = make_system(simulation.settings());
+  Restraint expected;
+  for (const auto& filter : system.filters) {
+    const Restraint* const restraint = filter->restraint();
+    if (restraint != nullptr && kept.state.step > 0) expected = *restraint;
+  }
+  const Restraint& restraint = kept.state.restraint;
+  if (kept.books.has_value() == simulation.checkpoint().books.has_value() &&
+      restraint.tensions.size() == expected.tensions.size() &&
+      restraint.acceleration.rows() == expected.acceleration.rows()) {
+    return;
+  }
+  throw UsageError(fmt::format("{}: cannot be resumed, because its checkpoint does not have all parts: simulate again",
+                               shown(from.partial->file())));
+}
+
+Stop make_stop(const std::stop_token& stop) {
+  return Stop([stop] { return stop.stop_requested(); });
+}
+
+void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,
+               const std::stop_token& stop, const ResumePoint* from) {
+  using Clock = std::chrono::steady_clock;
+  if (from != nullptr) simulation.restore(from->checkpoint);
+  for (StepObserver* observer : observers) observer->begin(simulation);
+  if (from != nullptr) replay(*from, simulation.settings().step, observers);
+  while (simulation.state().step < steps && !stop.stop_requested()) {
+    const auto begin = Clock::now();
+    StepReport report;
+    try {
+      report = simulation.step();
+    } catch (const Interrupted&) {
+      return;
+    }
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    try {
+      for (StepObserver* observer : observers) observer->after_step(simulation, report, seconds);
+    } catch (const Interrupted&) {
+      return simulation.undo_step();
+    }
+  }
+}
+
+void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token& stop,
+               const std::function<void(const StepReport&)>& after_step) {
+  if (!after_step) return run_steps(simulation, steps, std::span<StepObserver* const>(), stop);
+  Watch watch(after_step);
+  run_steps(simulation, steps, std::array<StepObserver*, 1>{&watch}, stop);
+}
+
+void run_on(const SimulationSettings& settings, const State& state, std::int64_t steps,
+            const std::vector<StepObserver*>& observers, const std::stop_token& stop) {
+  if (state.step >= steps) return;
+  try {
+    Simulation simulation(settings, Timing::none, make_stop(stop));
+    simulation.restore(state);
+    run_steps(simulation, steps, observers, stop);
+  } catch (const DivergedError&) {
+    // Show the steps before the divergence.
+  } catch (const Interrupted&) {  // during setup
+  }
+}
+
+void StepCounter::after_step(const Simulation& simulation, const StepReport&, double) {
+  progress_.done = simulation.state().step;
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -311,6 +403,64 @@ RunResult run_scene(const Scene& scene, const RunOptions& options, const std::st
   } catch (const Interrupted&) {
     return interrupted_at_once(film_extent(scene, options).steps);
   }
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+// The packed share of a state's 48 bytes per vertex. States further apart are predicted less well from one another.
+constexpr double expected_share = 0.6, expected_share_apart = 0.85, undamped = 1.25;
+
+std::string size_text(double bytes) {
+  if (bytes < 1e9) return fmt::format("{:.3g} MB", bytes / 1e6);
+  return fmt::format("{:.3g} GB", bytes / 1e9);
+}
+
+/// Returns the folder of a file, or its nearest existing parent folder.
+fs::path folder_there(const fs::path& file) {
+  std::error_code ignored;
+  fs::path folder = fs::absolute(file, ignored).parent_path();
+  while (!fs::exists(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder;
+}
+
+}  // namespace
+
+std::string MotionSpace::text(const std::string& file) const {
+  return fmt::format("{} will take about {} (at most {}), and {} are free there", file, size_text(expected),
+                     size_text(most), size_text(free));
+}
+
+MotionSpace motion_space(const Scene& scene, const RunOptions& options) {
+  const MotionOptions& motion = *options.motion;
+  const FilmExtent extent = film_extent(scene, options);
+  const auto steps = static_cast<double>(extent.steps);
+  const double states = motion.recorded.every ? steps / static_cast<double>(*motion.recorded.every) + 2
+                                              : std::min(steps + 1, 2.0 * extent.frames.count() + 2);
+  const auto vertices = static_cast<double>(scene.simulation.cloth.vertex_count());
+  const double colliders = static_cast<double>(scene.simulation.effects.size());
+  const double most = states * (64 + 48 * vertices) + (steps + 1) * (72 + 32 * colliders);
+
+  const double usual = motion.recorded.every == 1 ? expected_share : expected_share_apart;
+  // Motions without numerical damping are less smooth and harder to predict.
+  const double share = is_explicit(scene.simulation.integrator.method) ? std::min(1.0, undamped * usual) : usual;
+  std::error_code error;
+  const double there = options.from ? static_cast<double>(options.from->length) : 0;
+  const fs::space_info space = fs::space(folder_there(motion.path), error);
+  // If the file system does not tell its free space, assume that there is enough.
+  const double free = error ? most : static_cast<double>(space.available);
+  return {.expected = std::max(0.0, share * most - there), .most = std::max(0.0, most - there), .free = free};
+}
+
+void require_motion_file(const MotionOptions& options, const MotionSpace& space, bool begun) {
+  if (!begun) {
+    require_writable(options.path);
+    require_not_growing(options.path);
+  }
+  if (space.expected <= space.free) return;
+  throw UsageError(
+      space.text(options.path) +
+      ": free some space, or store fewer states with --every frames or --every N, or use a shorter [time] duration");
 }
 
 }  // namespace drape

@@ -1,16 +1,20 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
 
-#include "output/format.hpp"
-#include "render/backend.hpp"
-#include "run/frame_sampler.hpp"
+#include "motion/reader.hpp"
+#include "output/registry.hpp"
+#include "render/settings.hpp"
+#include "run/frame_source.hpp"
 #include "run/motion_recorder.hpp"
 #include "run/progress.hpp"
 #include "run/records.hpp"
@@ -18,6 +22,61 @@
 #include "scene/scene.hpp"
 
 namespace drape {
+
+/// The purposes of a run: outputs, motion file, records. Any thread may drop one that cannot be written.
+class RunPurposes {
+ public:
+  RunPurposes(bool outputs, bool motion, bool records) : outputs_(outputs), motion_(motion), records_(records) {}
+
+  /// @returns true if no purpose is left
+  bool lose_outputs() { return lose(outputs_); }
+  bool lose_motion() { return lose(motion_); }
+
+  /// Returns true if no purpose is left.
+  [[nodiscard]] bool none() const { return none_; }
+
+ private:
+  bool lose(std::atomic<bool>& reason) {
+    reason = false;
+    if (!outputs_ && !motion_ && !records_) none_ = true;
+    return none_;
+  }
+
+  std::atomic<bool> outputs_, motion_, none_ = false;
+  const bool records_;
+};
+
+/// Returns a Stop for a simulation that a stop request may end within a step.
+Stop make_stop(const std::stop_token& stop);
+
+/// Advances a simulation to step number `steps` and calls the observers in order. Returns early when a stop is
+/// requested. A simulation with a Stop ends within the step, in the state before it.
+/// @param from the checkpoint to resume from, if any
+/// @throws DivergedError after the observers saw the last finite step
+void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,
+               const std::stop_token& stop, const ResumePoint* from = nullptr);
+
+/// Advances likewise, with one function as the observer.
+void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token& stop,
+               const std::function<void(const StepReport&)>& after_step = {});
+
+/// Checks that a checkpoint has every part that the simulation would have saved.
+/// @throws UsageError if parts are missing
+void require_whole(const ResumePoint& from, const Simulation& simulation);
+
+/// Continues a state in a new simulation to step number `steps`. Ends early if that diverges.
+void run_on(const SimulationSettings& settings, const State& state, std::int64_t steps,
+            const std::vector<StepObserver*>& observers, const std::stop_token& stop);
+
+/// Observer that shows the number of steps done.
+class StepCounter final : public StepObserver {
+ public:
+  explicit StepCounter(Progress& progress) : progress_(progress) {}
+  void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
+
+ private:
+  Progress& progress_;
+};
 
 /// Options of a run of a scene.
 struct RunOptions {
@@ -79,5 +138,22 @@ inline RunResult interrupted_at_once(std::int64_t steps_wanted) {
 /// others.
 /// @throws Error from any of the threads, or if every output failed; no file is left then
 RunResult run_scene(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress);
+
+/// The disk space that a run's motion file will need, and the free space [bytes].
+struct MotionSpace {
+  double expected = 0, most = 0;  ///< additional to the existing file of a resumed run
+  double free = 0;
+
+  /// Returns a sentence with these figures.
+  [[nodiscard]] std::string text(const std::string& file) const;
+};
+
+MotionSpace motion_space(const Scene& scene, const RunOptions& options);
+
+/// Checks that a motion file can be written.
+/// @param begun true if the run resumes this file
+/// @throws UsageError  if another run left a file of this name, or the disk is expected to be too small
+/// @throws OutputError if the file cannot be written
+void require_motion_file(const MotionOptions& options, const MotionSpace& space, bool begun);
 
 }  // namespace drape

@@ -4,6 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "run/run_scene.hpp"
+#include "scene/scene.hpp"
+#include "sim/settings.hpp"
+
 namespace drape {
 
 /// One of `count` parts of a set of runs; numbers begin at 1.
@@ -21,5 +25,18 @@ Shard parse_shard(const std::string& text);
 /// Returns the runs of a shard, ascending. Greedy assignment balances the costs: the costliest run first, each to the
 /// shard with the least load. Depends on the costs alone.
 std::vector<std::size_t> runs_of_shard(const std::vector<double>& costs, const Shard& shard);
+
+/// Limit of the automatic thread count. Beyond it loop overhead grows and memory bandwidth is exhausted
+/// (docs/performance.md).
+inline constexpr int most_automatic_threads = 16;
+
+/// Returns the settings with the number of threads for the steps of a run.
+/// @param asked number of threads; 0: as many as pay off and find an idle processor, only while they do
+/// @param drawn true if frames are drawn and encoded at the same time, which reserves one processor
+SimulationSettings with_threads(SimulationSettings settings, int asked, bool drawn);
+
+/// Estimates the time of a run on a processor of 2022, within a factor of about three [s]. Depends only on the method,
+/// the effects and the numbers of steps, springs, vertices and pixels, so every machine assigns shards alike.
+double estimated_cost(const Scene& scene, const RunOptions& options);
 
 }  // namespace drape

@@ -1,14 +1,13 @@
 #include "scene/caption.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
 
-#include "core/nearest.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {

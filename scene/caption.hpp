@@ -3,11 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "overlay/settings.hpp"
+#include "render/overlay/caption.hpp"
 #include "scene/document.hpp"
-#include "scene/fields.hpp"
-#include "scene/problems.hpp"
-#include "sim/frame.hpp"
+#include "scene/effects_reader.hpp"
+#include "sim/state.hpp"
 
 namespace drape {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/problems.hpp"
+#include "scene/document.hpp"
 #include "scene/selection.hpp"
 #include "scene/tables.hpp"
 #include "sim/cloth.hpp"
@@ -29,5 +29,12 @@ struct ClothAndUvs {
 /// @returns nothing if there were problems
 std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& value,
                                       const std::filesystem::path& folder, Problems& problems);
+
+/// Reads an array of vertices. Items are numbers from 0; "corner:x-y+", the vertex farthest in that direction (the
+/// first of several); "edge:x-", all vertices farthest in that direction; "border", the border of the mesh; and tables
+/// that select at least one vertex, see read_selection().
+/// @param mesh null if it could not be read: then only the forms are checked
+/// @returns vertices, ascending and unique
+std::vector<int> read_pins(const TomlValue& value, const SelectableMesh* mesh, Problems& problems);
 
 }  // namespace drape

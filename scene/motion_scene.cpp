@@ -1,15 +1,12 @@
 #include "scene/motion_scene.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
 
 #include "core/error.hpp"
-#include "scene/digest.hpp"
-#include "scene/overrides.hpp"
-#include "scene/problems.hpp"
+#include "scene/document.hpp"
 #include "scene/table_reader.hpp"
 
 namespace drape {

@@ -2,26 +2,28 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <algorithm>
+#include <any>
 #include <cmath>
 #include <functional>
 #include <initializer_list>
+#include <memory>
+#include <optional>
 
+#include "core/files.hpp"
+#include "core/hash.hpp"
 #include "scene/caption.hpp"
 #include "scene/cloth_reader.hpp"
-#include "scene/digest.hpp"
+#include "scene/document.hpp"
 #include "scene/effects_reader.hpp"
-#include "scene/method_names.hpp"
-#include "scene/overrides.hpp"
-#include "scene/physics.hpp"
-#include "scene/quality.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
+#include "scene/values.hpp"
+#include "sim/body_shape.hpp"
 #include "sim/effects/bending.hpp"
-#include "sim/make_system.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/simulation.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
 namespace {
@@ -305,6 +307,208 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   checks.stability();
   problems.throw_if_any<SceneConflict>();
   return scene;
+}
+
+namespace {
+
+using Given = std::function<bool(const char*)>;
+
+void make_draft(Scene& scene, const Given& given) {
+  constexpr int smallest = 16;    // limit of [video] size
+  constexpr double rate = 12.5;   // [1/s]
+  constexpr double coarser = 10;  // factor of a tolerance
+  if (!given("video.size")) scene.video.size = (scene.video.size / 2).cwiseMax(smallest);
+  if (!given("video.fps")) scene.video.fps = std::min(scene.video.fps, rate);
+  if (!given("look.samples")) scene.look.samples = 1;
+  if (!given("look.ambient_occlusion")) scene.look.ambient_occlusion = false;
+  IntegratorSettings& integrator = scene.simulation.integrator;
+  if (integrator.tolerance && !given("integrator.tolerance")) *integrator.tolerance *= coarser;
+}
+
+void make_print(Scene& scene, const Given& given) {
+  constexpr int largest = 8192;  // limit of [video] size
+  constexpr int samples = 4, anisotropy = 16;
+  if (!given("video.size")) scene.video.size = (scene.video.size * 2).cwiseMin(largest);
+  if (!given("look.samples")) scene.look.samples = samples;
+  if (!given("look.anisotropy")) scene.look.anisotropy = anisotropy;
+}
+
+/// Returns true if every pin in a document is a corner, an edge or a border.
+bool pins_by_name(const TomlValue& value) {
+  const TomlTable* table = value.as<TomlTable>();
+  const TomlArray* array = value.as<TomlArray>();
+  if (array != nullptr) return std::ranges::all_of(*array, pins_by_name);
+  const auto is_name = [](const TomlValue& pin) { return pin.as<std::string>() != nullptr; };
+  return table == nullptr || std::ranges::all_of(table->entries, [&](const TomlEntry& entry) {
+           const TomlArray* pins = entry.name == "pins" ? entry.value.as<TomlArray>() : nullptr;
+           return pins != nullptr ? std::ranges::all_of(*pins, is_name) : pins_by_name(entry.value);
+         });
+}
+
+}  // namespace
+
+bool says_draft(const TomlValue& document) {
+  const TomlValue* quality = find_path(document, "look.quality");
+  const std::string* name = quality == nullptr ? nullptr : quality->as<std::string>();
+  return name != nullptr && *name == "draft";
+}
+
+void coarsen_grid(TomlValue& document) {
+  constexpr std::int64_t enough = 400;  // cells
+  if (!pins_by_name(document)) return;
+  TomlValue* cloth = document.as<TomlTable>()->find("cloth");
+  TomlTable* of_cloth = cloth == nullptr ? nullptr : cloth->as<TomlTable>();
+  if (of_cloth == nullptr || of_cloth->find("rest") != nullptr) return;
+  TomlValue* mesh = of_cloth->find("mesh");
+  TomlTable* table = mesh == nullptr ? nullptr : mesh->as<TomlTable>();
+  TomlValue* grid = table == nullptr ? nullptr : table->find("grid");
+  TomlArray* counts = grid == nullptr || grid->place.override_number > 0 ? nullptr : grid->as<TomlArray>();
+  if (counts == nullptr || counts->size() != 2) return;
+  std::int64_t* const columns = (*counts)[0].as<std::int64_t>();
+  std::int64_t* const rows = (*counts)[1].as<std::int64_t>();
+  if (columns == nullptr || rows == nullptr || *columns <= 0 || *rows <= enough / *columns) return;
+  for (std::int64_t* count : {columns, rows}) *count = (*count + 1) / 2;
+}
+
+void apply_quality(Scene& scene, const std::function<bool(const char*)>& given) {
+  if (scene.quality == Quality::draft) make_draft(scene, given);
+  if (scene.quality == Quality::print) make_print(scene, given);
+}
+
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 31;
+
+/// Hashes consecutive numbers.
+template <class Number>
+std::string hash_of(const Number* numbers, std::size_t count) {
+  Hash hash;
+  hash.add(numbers, count * sizeof(Number));
+  return hash.text();
+}
+
+std::string hash_of(const Vertices& v) { return hash_of(v.data(), static_cast<std::size_t>(v.size())); }
+
+std::string springs_text(const std::vector<Spring>& springs) {
+  Hash hash;
+  for (const Spring& spring : springs) {
+    hash.add(&spring.i, sizeof spring.i);
+    hash.add(&spring.j, sizeof spring.j);
+    hash.add(&spring.rest_length, sizeof spring.rest_length);
+    hash.add(&spring.stiffness, sizeof spring.stiffness);
+  }
+  return fmt::format("{} springs ({})", springs.size(), hash.text());
+}
+
+/// Returns the hash of a file's content. A pipe can be read only once, so its name is returned.
+std::string file_text(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) return file.string();
+  Hash hash;
+  hash.add(drape::read_file(file, most_bytes));
+  return "a file (" + hash.text() + ")";
+}
+
+/// Describes a moving mesh, whatever its source.
+std::string motion_text(const MeshMotion* motion) {
+  if (motion == nullptr) return "";
+  Hash hash;
+  hash.add(hash_of(motion->mesh.triangles.data(), motion->mesh.triangles.size()));
+  hash.add(hash_of(motion->mesh.positions));
+  hash.add(hash_of(motion->times.data(), motion->times.size()));
+  for (const Vertices& sample : motion->samples) hash.add(hash_of(sample));
+  return fmt::format("{} vertices at {} times ({})", motion->mesh.positions.rows(), motion->times.size(), hash.text());
+}
+
+/// Describes the shape of a body, if it is of the key's kind.
+std::string shape_text(const BodyShapeKey& key) {
+  if (!*key.shape || (*key.shape)->kind != key.kind) return "";
+  const BodyShape& s = **key.shape;
+  return fmt::format("{} {} {} {} {} {}", s.radius, s.height, s.top, s.width, s.depth, s.segments);
+}
+
+/// Returns text for a value in a custom form of an effect; nothing for other values.
+std::optional<std::string> own_text(const Key& key) {
+  const auto* form = std::get_if<CustomValue>(&key.target);
+  if (const auto* shape = form == nullptr ? nullptr : std::any_cast<BodyShapeKey>(&form->target)) {
+    return shape_text(*shape);
+  }
+  auto* const* motion = form == nullptr ? nullptr : std::any_cast<std::shared_ptr<const MeshMotion>*>(&form->target);
+  return motion == nullptr ? std::nullopt : std::optional(motion_text((*motion)->get()));
+}
+
+}  // namespace
+
+std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, const std::vector<ReadEffect>& effects,
+                                          const std::filesystem::path& folder) {
+  std::vector<SceneValue> values;
+  for (const TableType& table : tables) {
+    if (!table.name.starts_with("cloth") && table.name != "time" && table.name != "integrator") continue;
+    for (const Key& key : table.keys.all()) {
+      // The cloth itself records its mesh and the vertices selected from it.
+      if (std::holds_alternative<CustomValue>(key.target) || (table.name == "time" && key.name == "duration")) continue;
+      values.push_back({table.name + "." + key.name, value_text(key.target)});
+    }
+  }
+  const std::vector<std::string> paths = effect_paths(effects);
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    values.push_back({paths[i], "there"});
+    Effect effect = effects[i].effect;
+    Keys keys;
+    effect.describe(keys);
+    for (const Key& key : keys.all()) {
+      const auto* form = std::get_if<CustomValue>(&key.target);
+      if (form != nullptr && std::any_cast<BodyShapeKey>(&form->target) != nullptr && own_text(key)->empty()) continue;
+      if (const auto text = own_text(key)) {
+        values.push_back({paths[i] + "." + key.name, *text});
+        continue;
+      }
+      const TomlTable* table = effects[i].table->as<TomlTable>();
+      const TomlValue* given = table == nullptr ? nullptr : table->find(key.name);
+      const std::string* file = given == nullptr ? nullptr : given->as<std::string>();
+      const bool is_file = std::holds_alternative<CustomValue>(key.target) && file != nullptr;
+      values.push_back({paths[i] + "." + key.name, is_file ? file_text(folder / *file) : value_text(key.target)});
+    }
+  }
+  return values;
+}
+
+std::vector<SceneValue> physics_values(const Scene& scene) {
+  const Cloth& cloth = scene.simulation.cloth;
+  std::vector<SceneValue> values{
+      {"cloth.mesh", fmt::format("{} vertices ({}), {} triangles ({})", cloth.vertex_count(), hash_of(cloth.positions),
+                                 cloth.triangles.size(), hash_of(cloth.triangles.data(), cloth.triangles.size()))},
+      {"cloth.rest", springs_text(cloth.springs)},
+      {"cloth.pins", fmt::format("{} ({})", cloth.pins.size(), hash_of(cloth.pins.data(), cloth.pins.size()))}};
+  values.insert(values.end(), scene.tables.begin(), scene.tables.end());
+  return values;
+}
+
+std::string physics_hash(const std::vector<SceneValue>& values) {
+  Hash hash;
+  for (const SceneValue& value : values) hash.add(fmt::format("{}={}\n", value.key, value.text));
+  return hash.text();
+}
+
+std::string physics_difference(const std::vector<SceneValue>& a, const std::vector<SceneValue>& b,
+                               const std::string& name) {
+  const auto text_in = [](const std::vector<SceneValue>& values, const std::string& key) {
+    const auto found = std::ranges::find(values, key, &SceneValue::key);
+    return found == values.end() || found->text.empty() ? std::string("nothing") : found->text;
+  };
+  std::string text;
+  const auto add = [&](const std::string& key) {
+    const std::string in_a = text_in(a, key), in_b = text_in(b, key);
+    if (in_a != in_b) text += fmt::format("{}{}: {}, and {} in {}", text.empty() ? "" : "\n", key, in_a, in_b, name);
+  };
+  constexpr std::string_view springs = "cloth.rest";  // computed from other keys
+  for (const SceneValue& value : a) {
+    if (value.key != springs) add(value.key);
+  }
+  for (const SceneValue& value : b) {
+    if (std::ranges::find(a, value.key, &SceneValue::key) == a.end()) add(value.key);
+  }
+  if (text.empty()) add(std::string(springs));
+  return text;
 }
 
 }  // namespace drape

@@ -5,19 +5,51 @@
 //   drape::Simulation simulation(scene.simulation);
 //   while (simulation.state().step < scene.step_count()) simulation.step();
 
+// Example:
+//   const auto scene = drape::load_scene("scene.toml");
+//   std::puts(drape::step_method_name(scene.simulation.integrator.step_method()).c_str());  // "quasi-newton"
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "overlay/settings.hpp"
+#include "render/overlay/caption.hpp"
 #include "render/settings.hpp"
-#include "scene/check_settings.hpp"
+#include "scene/document.hpp"
 #include "scene/portable.hpp"
 #include "sim/schemes/method_choice.hpp"
 #include "sim/settings.hpp"
 
 namespace drape {
+
+/// Largest difference between two pictures that still count as equal up to rounding. All limits must hold.
+struct PictureLimits {
+  int channel = 3;        ///< largest difference of a pixel in any channel, of 255
+  double pixels = 0.005;  ///< largest fraction of pixels that differ at all
+  double flip = 0.05;     ///< largest FLIP error of a pixel
+};
+
+/// A rectangle of golden pixels: column and row of its top left one, width and height.
+using PixelRectangle = std::array<int, 4>;
+
+/// The [check] table of a scene: which golden frames and motion to compare, and with which tolerances.
+struct CheckSettings {
+  std::vector<int> frames;              ///< film frames to compare, ascending; empty: chosen automatically, where
+                                        ///< something happens
+  std::optional<Eigen::Vector2i> size;  ///< size of the golden pictures [pixels]; absent: film size
+  double window_time = 0.4;             ///< interval between restarts of the motion from a golden state [s]
+  double motion_tolerance = 1e-6;       ///< largest distance of a vertex from its golden position [m]
+  PictureLimits limits;
+  std::optional<double> time;          ///< largest ratio of the first steps' time to the golden's; absent: not measured
+  std::vector<PixelRectangle> ignore;  ///< rectangles left out of the comparison in every picture
+  std::vector<int> ignore_frames;      ///< frames whose pictures are not compared
+};
 
 /// A named value for texts about a scene: "integrator.tolerance".
 struct SceneField {
@@ -95,5 +127,72 @@ std::filesystem::path data_folder();
 /// scenes or draws.
 /// @throws UsageError if there is no such folder
 void use_data_folder(const std::filesystem::path& folder);
+
+/// Names of the methods in scenes, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 6> method_names{"semi-implicit", "implicit", "liu13",
+                                                              "quasi-newton",  "verlet",   "auto"};
+static_assert(method_names.size() == method_count + 1);
+
+inline std::string method_name(Method method) { return std::string(method_names[static_cast<std::size_t>(method)]); }
+
+/// Names of the schemes in scenes, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 2> scheme_names{"backward-euler", "sdirk2"};
+
+inline std::string scheme_name(TimeScheme scheme) {
+  return std::string(scheme_names[static_cast<std::size_t>(scheme)]);
+}
+
+/// Returns for example "verlet", "liu13", "liu13-sdirk2".
+inline std::string step_method_name(StepMethod how) {
+  return method_name(how.method) + (how.scheme == TimeScheme::sdirk2 ? "-sdirk2" : "");
+}
+
+/// Names of the stopping rules in scenes, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 3> stopping_rule_names{"change", "gradient", "error"};
+
+inline std::string stopping_rule_name(StoppingRule rule) {
+  return std::string(stopping_rule_names[static_cast<std::size_t>(rule)]);
+}
+
+/// Returns true if a document's quality is draft.
+bool says_draft(const TomlValue& document);
+
+/// Halves the columns and rows of a draft's grid of more than 20×20 cells. Grids with pins chosen by number or position
+/// stay; corners, edges and borders exist on every grid. A grid from the command line stays too.
+/// @param document document of a scene, after overrides
+void coarsen_grid(TomlValue& document);
+
+/// Returns the cells that another scene needs in order to draw a motion of this one.
+inline Cells cells_of(const Scene& scene) {
+  return scene.quality == Quality::draft ? Cells::of_draft : Cells::as_written;
+}
+
+/// Adjusts settings that trade time for detail to the scene's quality, relative to their values.
+///   draft  half the size, at most 12.5 frames per second, one sample, no ambient occlusion, ten times the given
+///          tolerance
+///   print  twice the size, at most 8192 pixels, four samples, textures filtered 16-fold
+/// A tolerance derived from an accuracy stays. Values from the command line stay.
+/// @param given returns true if the command line gives a key, "video.size"
+void apply_quality(Scene& scene, const std::function<bool(const char*)>& given);
+
+/// Returns every value of a scene that affects the motion, key by key. A key that is left out equals its default.
+/// Camera, look, film and duration are not included. Long values (a mesh, a track) are hashed.
+std::vector<SceneValue> physics_values(const Scene& scene);
+
+/// Computes a hash of these values: 16 hexadecimal digits.
+std::string physics_hash(const std::vector<SceneValue>& values);
+
+/// Describes the differences, a line for each key: "cloth.mass: 1, and 2 in look.toml".
+/// @param name name of the source of `b`
+std::string physics_difference(const std::vector<SceneValue>& a, const std::vector<SceneValue>& b,
+                               const std::string& name);
+
+struct TableType;
+struct ReadEffect;
+
+/// Returns the part of physics_values() that tables contain.
+/// @param folder folder of the files that effects name
+std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, const std::vector<ReadEffect>& effects,
+                                          const std::filesystem::path& folder);
 
 }  // namespace drape

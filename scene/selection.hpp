@@ -1,13 +1,15 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "scene/document.hpp"
-#include "scene/mesh/options.hpp"
-#include "scene/problems.hpp"
+#include "scene/mesh/source.hpp"
+#include "sim/cloth.hpp"
 #include "sim/mesh.hpp"
 
 namespace drape {
@@ -38,5 +40,24 @@ std::vector<std::vector<int>> border_rings(const std::vector<Triangle>& triangle
 /// @param mesh null if it could not be read: then only the form is checked
 std::vector<int> read_selection(const TomlValue& value, const std::string& name, const SelectableMesh* mesh,
                                 Problems& problems);
+
+/// Initial size of a cloth, shown to users so that they can check it.
+struct ClothShape {
+  int pieces = 0;                              ///< connected components with at least one spring
+  Eigen::Vector3d extent;                      ///< size of the bounding box [m]
+  double shortest_edge = 0, longest_edge = 0;  ///< [m]
+
+  /// Returns for example "2 pieces of 2 × 2 × 0 m together, edges of 0.1 to 0.141 m".
+  [[nodiscard]] std::string text() const;
+
+  /// Returns a warning about an unusual size, if any.
+  [[nodiscard]] std::optional<std::string> doubt() const;
+};
+
+ClothShape shape_of(const Cloth& cloth);
+
+/// Returns true if a mesh looks y-up: flat along y, or standing above y = 0 with its depth centred on z = 0. A z-up
+/// mesh may look so as well; this justifies only a hint.
+bool seems_y_up(const Vertices& positions);
 
 }  // namespace drape

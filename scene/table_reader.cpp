@@ -1,23 +1,18 @@
 #include "scene/table_reader.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <any>
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/nearest.hpp"
 #include "core/text.hpp"
-#include "scene/check_settings.hpp"
-#include "scene/color.hpp"
-#include "scene/mesh_file.hpp"
+#include "scene/cloth_reader.hpp"
 #include "scene/mesh_value.hpp"
-#include "scene/pins.hpp"
+#include "scene/scene.hpp"
 #include "scene/usd/motion.hpp"
 #include "scene/values.hpp"
 #include "sim/body_shape.hpp"
-#include "sim/mesh_motion.hpp"
 
 namespace drape {
 namespace {

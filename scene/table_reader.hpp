@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "scene/document.hpp"
-#include "scene/problems.hpp"
 #include "scene/selection.hpp"
 #include "scene/tables.hpp"
 

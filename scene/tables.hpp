@@ -6,8 +6,8 @@
 
 #include "core/keys.hpp"
 #include "scene/scene.hpp"
+#include "sim/cloth.hpp"
 #include "sim/effects/effect.hpp"
-#include "sim/fabrics.hpp"
 
 namespace drape {
 

@@ -6,12 +6,14 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/keys.hpp"
+#include "core/rgb.hpp"
 #include "scene/document.hpp"
-#include "scene/problems.hpp"
 
 namespace drape {
 
@@ -72,5 +74,26 @@ std::optional<std::filesystem::path> read_file_name(const TomlValue& value, cons
 
 /// Returns 'a', 'b' or 'c': a list of alternative keys.
 std::string quoted_or(const std::string& first, const std::vector<std::string>& others);
+
+/// Returns the names of all named colours: the sixteen basic colours of CSS, and orange.
+std::span<const std::string> color_names();
+
+/// Reads "#rrggbb", "#rgb" or one of color_names(). Returns nothing for other texts.
+std::optional<Rgb> parse_color(std::string_view text);
+
+/// Returns "#rrggbb"; each channel is rounded to the nearest of 0…255.
+std::string color_text(const Rgb& color);
+
+/// Returns the value of a key's target as scene text; empty for no value and for custom forms. Different values have
+/// different texts.
+std::string value_text(const Key::Target& target);
+
+struct TomlValue;
+
+/// Returns a value of a document as TOML, on one line.
+std::string toml_literal(const TomlValue& value);
+
+/// Returns a string in TOML's quotes.
+std::string toml_quoted(const std::string& text);
 
 }  // namespace drape

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 #include <muParser.h>
-
 #include <algorithm>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
-#include "core/nearest.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {

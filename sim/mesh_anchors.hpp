@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/mesh_motion.hpp"
+#include "sim/body_shape.hpp"
 
 namespace drape {
 

@@ -5,9 +5,27 @@
 //   settings.integrator = {.method = drape::Method::implicit, .scheme = drape::TimeScheme::sdirk2};
 //   settings.effects.add(drape::Gravity{});
 
+// Example:
+//   int patience = 1000;
+//   const drape::Stop stop([&patience] { return --patience == 0; });
+//   try {
+//     for (;;) stop.look();
+//   } catch (const drape::Interrupted&) {
+//   }
+
+// Example:
+//   drape::limit_instruction_set("avx2");
+//   std::printf("%s", drape::instruction_set().c_str());  // "sse2" where the processor has no AVX2
+
 #include <array>
+#include <exception>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "sim/cloth.hpp"
 #include "sim/effects/effect.hpp"
@@ -117,5 +135,48 @@ struct SimulationSettings {
   int threads = 1;             ///< shared by a step of a large cloth; any number gives the same bits
   bool spare_threads = false;  ///< fall back to one thread while the machine is busy; results do not change
 };
+
+/// Validates settings before a computation. The step must be positive, and every list of the cloth must have an entry
+/// for each vertex (rest may be empty). Triangles, springs and pins must refer to existing vertices.
+/// @throws UsageError with the expected and the found value
+void require_valid(const SimulationSettings& settings);
+
+/// Thrown by a computation that was told to stop. Not an error: there is nothing to report.
+struct Interrupted final : std::exception {
+  [[nodiscard]] const char* what() const noexcept override { return "interrupted"; }
+};
+
+/// A stop request that a computation checks between pieces of work of a few milliseconds. Library calls, such as a
+/// sparse factorisation, run to their end between two checks.
+class Stop {
+ public:
+  /// Creates an object that never stops.
+  Stop() = default;
+  /// @param asked returns true to stop; called on the computing thread, so it should be fast
+  explicit Stop(std::function<bool()> asked)
+      : asked_(std::make_shared<const std::function<bool()>>(std::move(asked))) {}
+
+  /// Returns false if it can never stop.
+  [[nodiscard]] bool possible() const { return asked_ != nullptr; }
+
+  /// @throws Interrupted if a stop is requested
+  void look() const {
+    if (asked_ && (*asked_)()) throw Interrupted();
+  }
+
+ private:
+  std::shared_ptr<const std::function<bool()>> asked_;
+};
+
+/// Returns the instruction sets that the hot loops are compiled for, slowest first; some may not run here.
+std::vector<std::string> instruction_sets();
+
+/// Returns the one in use: the fastest that this processor supports, within the limit.
+std::string instruction_set();
+
+/// Limits every simulation of the process to this instruction set; all give the same bits. Do not call while another
+/// thread computes.
+/// @throws UsageError if the name is unknown
+void limit_instruction_set(std::string_view name);
 
 }  // namespace drape

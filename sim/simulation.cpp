@@ -3,13 +3,13 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/make_system.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/schemes/method_choice.hpp"
 #include "sim/schemes/registry.hpp"
+#include "sim/settings.hpp"
 #include "sim/spring_network.hpp"
-#include "sim/step_forces.hpp"
-#include "sim/valid_settings.hpp"
+#include "sim/step_objective.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
 namespace {

@@ -16,13 +16,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "sim/collider.hpp"
-#include "sim/energies.hpp"
 #include "sim/settings.hpp"
 #include "sim/solvers/accuracy.hpp"
 #include "sim/state.hpp"
-#include "sim/step_report.hpp"
-#include "sim/stop.hpp"
 
 namespace drape {
 

@@ -1,11 +1,16 @@
+// Part of SpringNetwork that sums its blocks per vertex.
+
 #include "sim/spring_network.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
+#include <tuple>
 #include <utility>
 
+#include "sim/parallel/loops.hpp"
 #include "sim/parallel/vectors.hpp"
 
 namespace drape {
@@ -257,6 +262,198 @@ void SpringNetwork::add_product(const Blocks& blocks, const Vertices& vector, Ve
     kernels().add_band_product(stretch, of_bands.data(), columns(vector, place.first), to);
   });
   gathered_.add_product(kept(stiffness_.size()), vector, product);
+}
+
+GatheredSprings::GatheredSprings(std::vector<Spring> springs, int vertex_count, const Threads& threads)
+    : threads_(static_cast<Eigen::Index>(springs.size()) < worth_dividing ? one_thread() : threads) {
+  std::stable_sort(springs.begin(), springs.end(),
+                   [](const Spring& a, const Spring& b) { return std::tuple(a.i, a.j) < std::tuple(b.i, b.j); });
+  for (const Spring& spring : springs) {
+    i_.push_back(spring.i);
+    j_.push_back(spring.j);
+    stiffness_.push_back(spring.stiffness);
+    rest_length_.push_back(spring.rest_length);
+  }
+  values_.resize(static_cast<std::size_t>(lists()));
+  if (threads_.count() == 1) return;
+  first_.resize(static_cast<std::size_t>(vertex_count) + 1);
+  for (int vertex = 0; vertex <= vertex_count; ++vertex) {
+    first_[static_cast<std::size_t>(vertex)] =
+        static_cast<int>(std::lower_bound(i_.begin(), i_.end(), vertex) - i_.begin());
+  }
+  last_ = Incidence(j_, 1, vertex_count);
+  force_.resize(static_cast<Eigen::Index>(size()), 3);
+}
+
+int GatheredSprings::lists() const { return (static_cast<int>(size()) + kernel_size - 1) / kernel_size; }
+
+SpringList GatheredSprings::list(int first) const {
+  return {.i = i_.data() + first,
+          .j = j_.data() + first,
+          .count = std::min(kernel_size, static_cast<int>(size()) - first),
+          .stiffness = stiffness_.data() + first,
+          .rest_length = rest_length_.data() + first};
+}
+
+template <class Use>
+void GatheredSprings::for_lists(Use&& use) const {
+  for_ranges(
+      threads_, lists(),
+      [&](Eigen::Index begin, Eigen::Index count) {
+        for (auto number = static_cast<int>(begin); number < static_cast<int>(begin + count); ++number) {
+          use(list(number * kernel_size), number * kernel_size, static_cast<std::size_t>(number));
+        }
+      },
+      0);
+}
+
+template <class Add>
+void GatheredSprings::add_forces(Vertices& to, Add&& add) const {
+  const bool divided = threads_.count() > 1;
+  for_lists([&](SpringList list, int first, std::size_t number) {
+    if (divided) list.force = columns(force_, first);
+    add(list, first, number);
+  });
+  if (!divided) return;
+  for_ranges(threads_, to.rows(), [&](Eigen::Index begin, Eigen::Index count) {
+    for (Eigen::Index vertex = begin; vertex < begin + count; ++vertex) {
+      double x = to(vertex, 0), y = to(vertex, 1), z = to(vertex, 2);
+      // Springs with the vertex as j come first, as their i is smaller.
+      for (const int spring : last_.of(vertex)) {
+        x -= force_(spring, 0);
+        y -= force_(spring, 1);
+        z -= force_(spring, 2);
+      }
+      const auto v = static_cast<std::size_t>(vertex);
+      for (int spring = first_[v]; spring < first_[v + 1]; ++spring) {
+        x += force_(spring, 0);
+        y += force_(spring, 1);
+        z += force_(spring, 2);
+      }
+      to.row(vertex) << x, y, z;
+    }
+  });
+}
+
+void GatheredSprings::add_gradient(const Vertices& x, Vertices& gradient) const {
+  add_forces(gradient, [&](const SpringList& list, int, std::size_t) {
+    kernels().add_list_gradient(list, columns(x), columns(gradient));
+  });
+}
+
+double GatheredSprings::add_value_gradient(const Vertices& x, Vertices& gradient) const {
+  add_forces(gradient, [&](const SpringList& list, int, std::size_t number) {
+    values_[number] = kernels().add_list_value_gradient(list, columns(x), columns(gradient));
+  });
+  double total = 0;
+  for (const double value : values_) total += value;
+  return total;
+}
+
+void GatheredSprings::compute_blocks(const Vertices& x, double concavity, SpringBlocks blocks) const {
+  for_lists([&](const SpringList& list, int first, std::size_t) {
+    kernels().list_blocks(
+        list, concavity, columns(x),
+        {blocks.across + first, {blocks.along.x + first, blocks.along.y + first, blocks.along.z + first}});
+  });
+}
+
+void GatheredSprings::add_product(ConstSpringBlocks blocks, const Vertices& vector, Vertices& product) const {
+  add_forces(product, [&](const SpringList& list, int first, std::size_t) {
+    kernels().add_list_product(
+        list, {blocks.across + first, {blocks.along.x + first, blocks.along.y + first, blocks.along.z + first}},
+        columns(vector), columns(product));
+  });
+}
+
+void stiffen_evenly(double modulus, Cloth& cloth) {
+  stiffen_by_area(modulus, cloth);
+  // Springs along x, along y and diagonal, each with Σ k l² over the cloth.
+  std::array<double, 3> sums{};
+  double aslant_x = 0, aslant_y = 0;
+  const auto kind = [&](const Eigen::RowVector3d& along) {
+    const double least = 1e-6 * along.norm();
+    if (std::abs(along.y()) < least) return std::size_t{0};
+    return std::abs(along.x()) < least ? std::size_t{1} : std::size_t{2};
+  };
+  for (const Spring& s : cloth.springs) {
+    const Eigen::RowVector3d along = cloth.rest.row(s.j) - cloth.rest.row(s.i);
+    sums[kind(along)] += s.stiffness * along.squaredNorm();
+    if (kind(along) != 2) continue;
+    aslant_x += along.x() * along.x();
+    aslant_y += along.y() * along.y();
+  }
+  // With c = cos² and s = sin² of the diagonals' angle, these shares make Σ k l² n⊗n⊗n⊗n per area isotropic. There are
+  // three, as every triangle has three sides.
+  const double c = aslant_x / (aslant_x + aslant_y), s = 1 - c;
+  const std::array shares{9.0 / 8 - 3.0 / 8 * c / s, 9.0 / 8 - 3.0 / 8 * s / c, 3.0 / 8 / (c * s)};
+  if (!(std::ranges::min(shares) > 0)) return;
+  const double whole = (sums[0] + sums[1] + sums[2]) / 3;
+  for (Spring& spring : cloth.springs) {
+    const std::size_t k = kind(cloth.rest.row(spring.j) - cloth.rest.row(spring.i));
+    spring.stiffness *= shares[k] * whole / sums[k];
+  }
+}
+
+std::vector<Spring> springs_of_grid(int columns, const Vertices& rest, const GridSprings& stiffnesses) {
+  const int stride = columns + 1, rows = static_cast<int>(rest.rows()) / stride;
+  std::vector<Spring> springs;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < stride; ++i) {
+      const auto add = [&](int right, int up, double stiffness) {
+        if (i + right < 0 || i + right >= stride || j + up >= rows) return;
+        const int from = j * stride + i, to = from + up * stride + right;
+        const double length = (rest.row(to) - rest.row(from)).norm();
+        springs.push_back({.i = from, .j = to, .rest_length = length, .stiffness = stiffness});
+      };
+      add(1, 0, stiffnesses.structural);
+      add(2, 0, stiffnesses.bend);
+      add(-1, 1, stiffnesses.shear);
+      add(0, 1, stiffnesses.structural);
+      add(1, 1, stiffnesses.shear);
+      add(0, 2, stiffnesses.bend);
+    }
+  }
+  return springs;
+}
+
+void SpringNetwork::add_diagonal(const Blocks& blocks, Eigen::Matrix<double, Eigen::Dynamic, 6>& diagonal) const {
+  // Omit the negative part across a spring, and the same amount along it.
+  const auto across = blocks.across.array();
+  const auto along = blocks.along.array();
+  Eigen::ArrayXd share(across.size());
+  for_ranges(threads_, across.size(), [&](Eigen::Index at, Eigen::Index count) {
+    share.segment(at, count) =
+        (across.segment(at, count) < 0)
+            .select(1 + across.segment(at, count) / along.middleRows(at, count).square().rowwise().sum(), 1.0);
+  });
+  threads_.for_each(6, [&](int entry) {
+    constexpr std::array<int, 6> rows{0, 0, 0, 1, 1, 2}, columns{0, 1, 2, 1, 2, 2};
+    const int row = rows[static_cast<std::size_t>(entry)], column = columns[static_cast<std::size_t>(entry)];
+    const auto values = [&](std::size_t begin, Eigen::Index count, const auto& use) {
+      const auto at = static_cast<Eigen::Index>(begin);
+      const auto both =
+          share.segment(at, count) * along.col(row).segment(at, count) * along.col(column).segment(at, count);
+      if (row == column) {
+        use(both + across.segment(at, count).max(0.0));
+      } else {
+        use(both);
+      }
+    };
+    for (const Band& b : bands_) {
+      const Eigen::Index count = std::max(0, vertex_count_ - b.offset);
+      values(b.begin, count, [&](const auto& each) {
+        diagonal.col(entry).head(count).array() += each;
+        diagonal.col(entry).segment(b.offset, count).array() += each;
+      });
+    }
+    values(stiffness_.size(), static_cast<Eigen::Index>(gathered_.size()), [&](const auto& each) {
+      gathered_.for_each([&](Eigen::Index spring, int i, int j) {
+        diagonal(i, entry) += each[spring];
+        diagonal(j, entry) += each[spring];
+      });
+    });
+  });
 }
 
 }  // namespace drape

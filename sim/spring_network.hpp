@@ -3,11 +3,62 @@
 #include <vector>
 
 #include "sim/cloth.hpp"
-#include "sim/gathered_springs.hpp"
 #include "sim/kernels/vertices.hpp"
+#include "sim/parallel/loops.hpp"
 #include "sim/parallel/threads.hpp"
 
 namespace drape {
+
+/// Springs accessed by index, sorted by their vertices: all springs of an irregular mesh, and those of a grid outside
+/// its bands (SpringNetwork).
+///
+/// A single thread adds each spring's force to both vertices at once. Several threads first compute all forces. Each
+/// then sums the forces at its share of the vertices in the same order. So the bits are the same for any numbering of
+/// the mesh.
+///
+/// Keeps scratch memory: one object serves one thread.
+class GatheredSprings {
+ public:
+  /// @param springs with i < j < vertex_count, duplicates included
+  /// @param threads shared by a pass if it is long enough; must outlive this
+  GatheredSprings(std::vector<Spring> springs, int vertex_count, const Threads& threads);
+
+  [[nodiscard]] std::size_t size() const { return i_.size(); }
+
+  /// Adds ∇E(x) to the gradient, n×3 [N]; the second function also returns E(x) [J].
+  void add_gradient(const Vertices& x, Vertices& gradient) const;
+  double add_value_gradient(const Vertices& x, Vertices& gradient) const;
+
+  /// Computes the springs' blocks, one per spring in order, see SpringNetwork.
+  void compute_blocks(const Vertices& x, double concavity, SpringBlocks blocks) const;
+  /// Adds H·vector to the product.
+  void add_product(ConstSpringBlocks blocks, const Vertices& vector, Vertices& product) const;
+
+  /// Calls use(spring, i, j) for all springs in order.
+  template <class Use>
+  void for_each(Use&& use) const {
+    for (std::size_t s = 0; s < i_.size(); ++s) use(static_cast<Eigen::Index>(s), i_[s], j_[s]);
+  }
+
+ private:
+  /// Returns the list of springs from `first` on that one kernel call processes.
+  [[nodiscard]] SpringList list(int first) const;
+  [[nodiscard]] int lists() const;
+  /// Calls use(list, its first spring, its number) for all lists, on all threads.
+  template <class Use>
+  void for_lists(Use&& use) const;
+  /// Calls add(list, first spring, number) to add the forces of every list to `to`, directly or via force_.
+  template <class Add>
+  void add_forces(Vertices& to, Add&& add) const;
+
+  std::vector<int> i_, j_;
+  std::vector<double, Eigen::aligned_allocator<double>> stiffness_, rest_length_;
+  const Threads& threads_;  // a single thread for few springs
+  std::vector<int> first_;  // for each vertex, the first spring whose i it is; ends with the number of springs
+  Incidence last_;          // for each vertex, the springs whose j it is
+  mutable Vertices force_;  // per spring, if several threads compute them
+  mutable std::vector<double> values_;  // per list
+};
 
 /// Springs, E(x) = Σ k/2 (‖x_i − x_j‖ − L)², in a layout for speed. Most springs of a cloth join vertices at a fixed
 /// offset in number (1, N and N+1 on an N×N grid). Each offset forms a band with one entry per vertex, like a matrix
@@ -108,5 +159,25 @@ class SpringNetwork {
   mutable std::vector<double> values_;  // per stretch, if there are several parts
   mutable Vertices other_force_;        // for explicit steps: the force plus that of springs outside of bands
 };
+
+/// Gives the springs of a grid with alternating or crossed diagonals the stiffnesses of an isotropic cloth, with
+/// modulus E and a Poisson's ratio of 1/3. The springs along x, along y and the diagonals get the shares that achieve
+/// this; stiffen_by_area uses the areas instead. Cells longer than √3 times their width would need pushing springs and
+/// use stiffen_by_area.
+/// @param modulus E, force per width and strain, positive [N/m]
+/// @param cloth   whose rest shape is such a grid along x and y
+void stiffen_evenly(double modulus, Cloth& cloth);
+
+/// Stiffnesses of the springs of a course's cloth [N/m].
+struct GridSprings {
+  double structural;  ///< along the sides of cells
+  double shear;       ///< along both diagonals of every cell
+  double bend;        ///< between every other vertex of a row or column
+};
+
+/// Returns the springs of a course's cloth, sorted by vertices.
+/// @param columns of the grid's cells
+/// @param rest    its (columns + 1)·(rows + 1) vertices in row-major order, at least two rows
+std::vector<Spring> springs_of_grid(int columns, const Vertices& rest, const GridSprings& stiffnesses);
 
 }  // namespace drape

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -27,5 +33,49 @@ double condition_bound(const System& system);
 
 /// Value of condition_bound() beyond which double precision loses the inertia beside the springs.
 inline constexpr double largest_condition = 1e14;
+
+/// Detector of motions with more energy than the explained energy, which is the initial one plus the work of the
+/// forces, Σ|f·Δx|.
+class BlowUpWatch {
+ public:
+  static constexpr double limit_of_unstable_steps = 1e4;
+  /// Returns the ratio to the explained energy that counts as a blow-up of an explicit method. Symplectic Euler
+  /// conserves K + E − (h/2)·v·∇E of a linear cloth. With r = step/safe_step() < 1 this is between (1 − r) and (1 + r)
+  /// times K + E, so K + E varies by at most a factor of (1 + r)/(1 − r). The limit is four times that. Velocity Verlet
+  /// conserves (1 − r²) K + E and varies less. Beyond r = 1 the energy grows by a constant factor per step; ten
+  /// thousand times the explained energy is far beyond any stable motion and reached after a few steps.
+  /// @param ratio step/safe_step()
+  static double limit(double ratio);
+
+  /// @param limit    ratio to the explained energy that counts as a blow-up
+  /// @param interval steps between two checks
+  BlowUpWatch(const System& system, double limit, int interval);
+
+  /// Begins with a state of the energy K + E [J].
+  void begin(const State& state, double energy);
+
+  /// Checkpoint state.
+  using EnergyHistory = EnergyMemory;
+  [[nodiscard]] const EnergyHistory& books() const { return books_; }
+  /// Restores a checkpoint state.
+  void go_on(const EnergyHistory& books) { books_ = books; }
+
+  /// Adds the work of a step that has ended, and checks the energy after every interval, see StabilityGuard::look.
+  std::optional<double> look(const State& state, const Vertices& push, bool constant,
+                             const std::function<double()>& energy);
+
+ private:
+  double step_;  // [s]
+  double limit_;
+  int interval_;
+  double rounding_;  // rounding error of the energy due to the positions [J]
+  EnergyHistory books_;
+};
+
+/// Returns an error that names the step, the time, the worst vertex (the first non-finite, or else the fastest), the
+/// growth of the energy, and the remedy.
+/// @param growth of the energy, see BlowUpWatch; absent: numbers are no longer finite
+/// @param remedy see StabilityGuard
+DivergedError diverged(const State& state, double time, std::optional<double> growth, const std::string& remedy);
 
 }  // namespace drape

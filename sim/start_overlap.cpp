@@ -1,12 +1,11 @@
 #include "sim/start_overlap.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 
 #include "core/keys.hpp"
-#include "sim/collision/intersection.hpp"
+#include "sim/collision/distance.hpp"
 #include "sim/collision/placed_mesh.hpp"
 #include "sim/system.hpp"
 

@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "sim/cloth.hpp"
-#include "sim/collider.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/parallel/threads.hpp"
-#include "sim/pin_motion.hpp"
+#include "sim/settings.hpp"
 #include "sim/state.hpp"
-#include "sim/stop.hpp"
+#include "sim/tracks.hpp"
 
 namespace drape {
 
@@ -237,5 +236,14 @@ struct System {
   /// Lets every filter change the velocities of the move from state.x, and records the restraint in the state.
   void filter(State& state, Vertices& way) const;
 };
+
+/// Returns the system of all that acts on the cloth with these settings. It refers to the settings and the threads,
+/// which must outlive it.
+/// @param effect_seconds if given, one number per effect, to which its computing time is added
+System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds = nullptr,
+                   const Stop& stop = {}, const Threads& threads = one_thread());
+/// Returns the same system with another step length [s].
+System make_system(const SimulationSettings& settings, double step, std::vector<double>* effect_seconds = nullptr,
+                   const Stop& stop = {}, const Threads& threads = one_thread());
 
 }  // namespace drape

@@ -1,21 +1,226 @@
 #include "study/accuracy_runs.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <numeric>
 
-#include "core/names_in_folders.hpp"
-#include "core/nearest.hpp"
-#include "core/read_file.hpp"
+#include "core/files.hpp"
+#include "core/installation.hpp"
 #include "core/text.hpp"
-#include "scene/method_names.hpp"
-#include "study/accuracy_soundness.hpp"
+#include "scene/scene.hpp"
+#include "study/accuracy_report.hpp"
+#include "study/animation.hpp"
 #include "study/runs_file.hpp"
+#include "study/solve_error.hpp"
 
 namespace drape {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double rounded_part = 1e-6;  // rounding tolerance, as a share of a step
+
+/// Returns the scene's step that ends at a time; nothing for a time within a step.
+std::optional<std::int64_t> moment_at(double time, double h) {
+  const double steps = time / h;
+  if (std::abs(steps - std::round(steps)) > rounded_part) return std::nullopt;
+  return std::llround(steps);
+}
+
+}  // namespace
+
+std::function<void(const Simulation&, const StepReport&)> MotionWatch::watch(MotionPoint& point,
+                                                                             const StudyCase& what) {
+  point.errors.assign(times_.size(), {unknown, unknown});
+  Watched& watched = watched_.emplace_back();
+  watched.point = &point;
+  const Cloth& cloth = scene_.simulation.cloth;
+  watched.before = {.x = cloth.positions, .v = cloth.velocities, .step = 0};
+  return [this, &point, &watched, judged = what.steps](const Simulation& simulation, const StepReport& report) {
+    const State& state = simulation.state();
+    if (report.estimate && state.step <= judged) {
+      point.substeps.push_back(static_cast<double>(report.substeps));
+      point.estimates.push_back(*report.estimate);
+      point.converged.push_back(report.converged ? 1 : 0);
+      watched.steps.push_back({std::move(watched.before), state.x});
+      watched.before = state;
+    }
+    const auto moment = moment_at(simulation.time(), scene_.simulation.step);
+    const auto place = moment ? reference_->place(*moment) : std::nullopt;
+    if (!place) return;
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      if (*moment == std::llround(times_[i] / scene_.simulation.step)) {
+        point.errors[i] = distance(state.x, reference_->x[*place]);
+      }
+    }
+    if (films_ == nullptr) return;
+    if (const auto error = films_->error(*moment, state.x)) point.film_flip.push_back(*error);
+    if (point.film_flip.size() != films_->count()) return;
+    point.flip =
+        std::accumulate(point.film_flip.begin(), point.film_flip.end(), 0.0) / static_cast<double>(films_->count());
+  };
+}
+
+bool MotionWatch::find_local_errors(std::vector<MotionPoint>& points, std::vector<std::string>& notes,
+                                    const std::stop_token& stop, Progress& progress) const {
+  if (points.empty()) return true;
+  progress.begin("taking single steps again", "cases", static_cast<std::int64_t>(points.size()));
+  std::optional<LocalErrors> exact;
+  try {
+    exact.emplace(scene_.simulation);
+  } catch (const UsageError& error) {
+    notes.push_back(fmt::format("The true errors of steps are not known: {}", error.what()));
+    return true;
+  }
+  for (MotionPoint& point : points) {
+    const auto watched = std::ranges::find(watched_, &point, &Watched::point);
+    for (const Step& step : watched->steps) {
+      if (stop.stop_requested()) return false;
+      const auto found = exact->of_step(step.before, step.after);
+      point.local_errors.push_back(found ? found->error : unknown);
+      point.local_unknown.push_back(found ? found->unknown : unknown);
+    }
+    ++progress.done;
+  }
+  return true;
+}
+
+namespace {
+
+bool all_finite(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+/// Returns true if a case has finite times, or a failure.
+bool is_sound(const CaseRuns& runs) {
+  const bool timed = !runs.microseconds.empty() || !runs.failure.empty();
+  return timed && all_finite(runs.microseconds) && all_finite(runs.setup);
+}
+
+/// Returns true if the lists of a motion's steps have matching sizes; they may be empty.
+bool is_sound(const MotionPoint& point, std::size_t times) {
+  const std::size_t judged = point.local_errors.size();
+  return is_sound(point.measured) && point.errors.size() == times && point.local_unknown.size() == judged &&
+         point.estimates.size() >= judged && point.converged.size() >= judged;
+}
+
+}  // namespace
+
+std::string unsound_in(const SceneAccuracy& scene) {
+  const std::size_t times = scene.options.times.size();
+  const bool moves = !scene.steps.empty() || !scene.asked.empty() || !scene.fixed.empty();
+  if (times == 0) return "there are no times";
+  if (!scene.points.empty() && scene.apart.size() != times) return "there are not as many 'apart' as 'times'";
+  if (moves && (scene.step_gained.empty() || scene.step_gained.size() > times)) {
+    return "there are not as many 'step_gained' as 'times'";
+  }
+  const auto bad_tolerance = [&](const TolerancePoint& p) { return !is_sound(p.measured) || p.motion.size() != times; };
+  const auto bad_step = [](const StepPoint& p) { return !is_sound(p.measured); };
+  const auto bad_motion = [&](const MotionPoint& p) { return !is_sound(p, times); };
+  if (std::ranges::any_of(scene.points, bad_tolerance)) return "of a tolerance not everything is there";
+  if (std::ranges::any_of(scene.steps, bad_step)) return "of a step not everything is there";
+  if (std::ranges::any_of(scene.asked, bad_motion)) return "of an accuracy not everything is there";
+  if (std::ranges::any_of(scene.fixed, bad_motion)) return "of a fixed step not everything is there";
+  return {};
+}
+
+namespace {
+
+constexpr std::size_t most_panels = 4;
+constexpr double usual_tolerance = 1e-3;
+
+/// Returns up to most_panels elements, evenly spread over a list and including its ends.
+template <class T>
+std::vector<T> spread(const std::vector<T>& all) {
+  if (all.size() <= most_panels) return all;
+  std::vector<T> some;
+  for (std::size_t i = 0; i < most_panels; ++i) some.push_back(all[i * (all.size() - 1) / (most_panels - 1)]);
+  return some;
+}
+
+std::string cost_label(double microseconds) {
+  return fmt::format("{:.{}f} µs per step", microseconds, microseconds < 100 ? 1 : 0);
+}
+
+AnimationPanel panel(const TolerancePoint& p) {
+  return {p.measured.what, fmt::format("{}, tolerance {:g}: {}", step_method_name(p.method), p.tolerance,
+                                       cost_label(p.measured.time().median))};
+}
+
+AnimationPanel panel(const StepPoint& p) {
+  return {p.measured.what,
+          fmt::format("{}, h = {:g} s: {}", step_method_name(p.method), p.step, cost_label(p.measured.time().median))};
+}
+
+/// Returns the method whose tolerance or step varies: Liu13 if present, since its errors are the most visible.
+StepMethod shown_method(const SceneAccuracy& accuracy) {
+  const std::vector<StepMethod>& methods = accuracy.options.methods;
+  const bool has_liu13 = std::find(methods.begin(), methods.end(), StepMethod(Method::liu13)) != methods.end();
+  return has_liu13 ? StepMethod(Method::liu13) : methods.front();
+}
+
+double nearest_tolerance(const SceneAccuracy& accuracy) {
+  const auto off = [](double tolerance) { return std::abs(std::log(tolerance / usual_tolerance)); };
+  const std::vector<double>& all = accuracy.options.tolerances;
+  return *std::min_element(all.begin(), all.end(), [&](double a, double b) { return off(a) < off(b); });
+}
+
+std::vector<AnimationPanel> panels_of(const SceneAccuracy& accuracy, AnimatedBy by) {
+  std::vector<AnimationPanel> panels;
+  if (by == AnimatedBy::steps) {
+    for (const double step : spread(accuracy.options.steps)) {
+      for (const StepPoint& p : accuracy.steps) {
+        if (p.method == shown_method(accuracy) && p.step == step) panels.push_back(panel(p));
+      }
+    }
+    return panels;
+  }
+  const std::vector<double> tolerances = by == AnimatedBy::tolerances
+                                             ? spread(accuracy.options.tolerances)
+                                             : std::vector<double>{nearest_tolerance(accuracy)};
+  for (const double tolerance : tolerances) {
+    for (const TolerancePoint& p : accuracy.points) {
+      const bool shown = by == AnimatedBy::methods || p.method == shown_method(accuracy);
+      if (shown && p.tolerance == tolerance) panels.push_back(panel(p));
+    }
+  }
+  return panels;
+}
+
+}  // namespace
+
+std::optional<StudyPicture> animate_accuracy(const SceneAccuracy& accuracy, AnimatedBy by,
+                                             const std::filesystem::path& folder, GlBackend backend,
+                                             const std::stop_token& stop, Progress& progress) {
+  const std::vector<AnimationPanel> panels = panels_of(accuracy, by);
+  if (panels.size() < 2) return std::nullopt;
+  const Scene scene = load_scene(accuracy.scene, accuracy.options.overrides);
+  SimulationSettings reference = scene.simulation;
+  if (by == AnimatedBy::steps)
+    reference.step = accuracy.options.steps.back() / static_cast<double>(reference_refinement);
+  const std::string name = animated_by_names[static_cast<std::size_t>(by)];
+  StudyPicture picture;
+  picture.file = fmt::format("{}-by-{}.gif", accuracy.name, name);
+  picture.caption = fmt::format(
+      "{} with different {}. Vertices are coloured by their distance from the reference, computed {}. Above each "
+      "panel: time per step, current error and flipped pairs of triangles.",
+      accuracy.scene, name,
+      by == AnimatedBy::steps ? fmt::format("with h = {:g} s", reference.step) : "by Newton's method down to rounding");
+  picture.command = fmt::format("{} --animate {}", study_command(accuracy), name);
+  auto animation = animate_errors(scene, to_rounding(reference, Method::implicit), panels, folder / picture.file,
+                                  backend, stop, progress);
+  if (!animation) return std::nullopt;
+  picture.bytes = std::move(animation->gif);
+  picture.stills = std::move(animation->stills);
+  const AnimationPanel& worst = panels[animation->worst_panel];
+  picture.motions = {{"the reference", {}, std::move(animation->reference)},
+                     {worst.label + ", which ends furthest from the reference", worst.what.film_command("motion.html"),
+                      std::move(animation->worst)}};
+  return picture;
+}
+
 namespace {
 
 constexpr int format = 2;

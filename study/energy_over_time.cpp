@@ -1,20 +1,19 @@
 #include "study/energy_over_time.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "run/run_steps.hpp"
-#include "scene/method_names.hpp"
+#include "reports/chart.hpp"
+#include "run/run_scene.hpp"
+#include "scene/scene.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/simulation.hpp"
-#include "study/method_series.hpp"
 
 namespace drape {
 namespace {
 
-constexpr double duration = 8, between = 0.1;  // [s]; `between` is the spacing of a curve's points
+constexpr double duration = 8, sample_interval = 0.1;  // [s]
 
 SimulationSettings swinging_cloth(StepMethod method, double step) {
   const Mesh mesh = make_grid(20, 20);
@@ -79,7 +78,7 @@ std::int64_t step_count(const EnergyCurve& curve) { return std::llround(duration
 
 void measure_energy(EnergyCurve& curve, const std::stop_token& stop) {
   Simulation simulation(swinging_cloth(curve.method, curve.step));
-  EnergySamples samples(std::llround(between / curve.step), curve);
+  EnergySamples samples(std::llround(sample_interval / curve.step), curve);
   StepObserver* const observer = &samples;
   run_steps(simulation, step_count(curve), {&observer, 1}, stop);
   samples.finish();

@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "figures/diagram_files.hpp"
+#include "reports/diagram_files.hpp"
 #include "sim/settings.hpp"
 
 namespace drape {

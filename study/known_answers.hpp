@@ -1,9 +1,27 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "study/validation.hpp"
+
 namespace drape {
+
+/// The position of a heavy elastica's tip, relative to its length.
+struct ElasticaTip {
+  double drop = 0, reach = 0;  ///< depth below the clamp, and horizontal distance from it
+
+  /// Returns the angle of the chord from clamp to tip below the horizontal [degrees].
+  [[nodiscard]] double chord_angle() const;
+};
+
+/// Computes a strip of unit length, clamped horizontally at one end, inextensible, bent by its own weight:
+///    θ″ = −Γ (1 − s) cos θ,  θ(0) = 0,  θ′(1) = 0,
+/// with the angle θ below the horizontal and Γ = ρ g L³/D. Shooting from the free end with classical Runge–Kutta; the
+/// tip's position is accurate to 1e-10.
+/// @param gamma Γ, from 0 to 1000
+ElasticaTip heavy_elastica(double gamma);
 
 /// The theoretical curve of a case.
 struct KnownCurve {
@@ -35,5 +53,23 @@ double stick_slip_rest(double start);
 /// Returns a pendulum's period relative to that of small swings: 1/agm(1, cos(θ/2)).
 /// @param amplitude θ, below 180 [degrees]
 double pendulum_period(double amplitude);
+
+/// A value from another program for a known answer.
+struct GivenAnswer {
+  const ValidationProblem* problem = nullptr;
+  const KnownAnswer* known = nullptr;
+  double value = 0;
+
+  [[nodiscard]] bool met() const;
+};
+
+/// Reads answers from a CSV file with the columns problem, quantity and value, or from an NPZ file. An NPZ file has a
+/// motion of one problem, measured like drape's own; vertices are in the order of the case's mesh. Its arrays are
+/// `times`, `positions` (times × vertices × 3, or vertices × 3 for the last state), and `velocities` if the measure
+/// needs them.
+/// @param problem of the NPZ file; may be empty for a case with one problem
+/// @throws UsageError "file: message"
+std::vector<GivenAnswer> read_answers(const ValidationCase& of, const std::filesystem::path& file,
+                                      const std::string& problem);
 
 }  // namespace drape

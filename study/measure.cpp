@@ -2,18 +2,146 @@
 
 #include <fmt/format.h>
 #include <time.h>
-
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
 
-#include "run/run_steps.hpp"
-#include "sim/flipped_pairs.hpp"
+#include "run/run_scene.hpp"
+#include "sim/mesh.hpp"
 
 namespace drape {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Kernels are plain functions, so the times are global: one clock at a time.
+std::array<double, kernel_part_count> part_seconds;
+const Kernels* original = nullptr;
+
+/// A stopwatch that adds its lifetime to the time of a part.
+struct Stopwatch {
+  std::size_t part;
+  Clock::time_point begin = Clock::now();
+  ~Stopwatch() { part_seconds[part] += std::chrono::duration<double>(Clock::now() - begin).count(); }
+};
+
+/// A kernel of the same type that calls and times the original.
+template <auto Member, KernelPart Part>
+struct Timed;
+template <class Result, class... Arguments, Result (*Kernels::*Member)(Arguments...), KernelPart Part>
+struct Timed<Member, Part> {
+  static Result call(Arguments... arguments) {
+    const Stopwatch watch{static_cast<std::size_t>(Part)};
+    return (original->*Member)(arguments...);
+  }
+};
+
+template <auto Member, KernelPart Part>
+void wrap(Kernels& kernels) {
+  kernels.*Member = &Timed<Member, Part>::call;
+}
+
+Kernels timed_version(const Kernels& plain) {
+  Kernels k = plain;
+  wrap<&Kernels::add_list_gradient, KernelPart::local>(k);
+  wrap<&Kernels::add_list_value_gradient, KernelPart::local>(k);
+  wrap<&Kernels::add_band_value_gradient, KernelPart::local>(k);
+  wrap<&Kernels::evaluate_bands, KernelPart::local>(k);
+  wrap<&Kernels::kick_bands, KernelPart::local>(k);
+  wrap<&Kernels::band_blocks, KernelPart::assembly>(k);
+  wrap<&Kernels::list_blocks, KernelPart::assembly>(k);
+  wrap<&Kernels::add_band_product, KernelPart::product>(k);
+  wrap<&Kernels::add_list_product, KernelPart::product>(k);
+  wrap<&Kernels::add_scaled, KernelPart::vectors>(k);
+  wrap<&Kernels::add_multiple, KernelPart::vectors>(k);
+  wrap<&Kernels::dots, KernelPart::vectors>(k);
+  wrap<&Kernels::add_multiples, KernelPart::vectors>(k);
+  wrap<&Kernels::pack_single, KernelPart::global>(k);
+  wrap<&Kernels::pack_double, KernelPart::global>(k);
+  wrap<&Kernels::unpack_single, KernelPart::global>(k);
+  wrap<&Kernels::unpack_double, KernelPart::global>(k);
+  wrap<&Kernels::subtract_packed_single, KernelPart::global>(k);
+  wrap<&Kernels::subtract_packed_double, KernelPart::global>(k);
+  wrap<&Kernels::solve_single, KernelPart::global>(k);
+  wrap<&Kernels::solve_double, KernelPart::global>(k);
+  return k;
+}
+
+}  // namespace
+
+KernelClock::KernelClock() : timed_(timed_version(kernels())), plain_(replace_kernels(timed_)) {
+  original = &plain_;
+  reset();
+}
+
+KernelClock::~KernelClock() { replace_kernels(plain_); }
+
+void KernelClock::reset() { part_seconds.fill(0); }
+
+double KernelClock::seconds(KernelPart part) const { return part_seconds[static_cast<std::size_t>(part)]; }
+
+namespace {
+
+constexpr double confidence = 0.95, narrow_share = 0.05;
+
+}  // namespace
+
+bool MedianInterval::known() const { return std::isfinite(lower) && std::isfinite(upper); }
+
+bool MedianInterval::narrow() const {
+  return known() && median - lower <= narrow_share * median && upper - median <= narrow_share * median;
+}
+
+std::size_t first_order_statistic(std::size_t n) {
+  // Sum P(B = 0), P(B ≤ 1), … until both tails together exceed 1 − confidence.
+  double one = std::exp2(-static_cast<double>(n)), below = one;
+  std::size_t l = 0;
+  while (2 * below <= 1 - confidence) {
+    ++l;
+    one *= static_cast<double>(n - l + 1) / static_cast<double>(l);
+    below += one;
+  }
+  return l;
+}
+
+MedianInterval median_interval(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size(), half = n / 2;
+  MedianInterval interval;
+  interval.count = n;
+  interval.median = n % 2 == 1 ? values[half] : std::midpoint(values[half - 1], values[half]);
+  const std::size_t l = first_order_statistic(n);
+  interval.lower = l > 0 ? values[l - 1] : std::numeric_limits<double>::quiet_NaN();
+  interval.upper = l > 0 ? values[n - l] : std::numeric_limits<double>::quiet_NaN();
+  return interval;
+}
+
+bool is_enough(const std::vector<double>& values, RunCount runs) {
+  if (values.size() >= static_cast<std::size_t>(runs_at_most(runs))) return true;
+  return !runs && values.size() >= fewest_for_interval && median_interval(values).narrow();
+}
+
+std::string runs_option(RunCount runs) { return runs ? fmt::format(" --runs {}", *runs) : std::string(); }
+
+std::string describe_runs(RunCount runs) {
+  if (!runs) {
+    return fmt::format(
+        "the median of as many runs as it takes until its interval of 95 % confidence, which is from one run to "
+        "another "
+        "(order statistics), is within 5 % of it, but no more than {}",
+        most_runs);
+  }
+  return fmt::format("the median of {} run{}{}", *runs, *runs == 1 ? "" : "s",
+                     *runs < static_cast<int>(fewest_for_interval)
+                         ? ", which are too few for an interval"
+                         : " and its interval of 95 % confidence, which is from one run to another (order statistics)");
+}
+
 namespace {
 
 constexpr std::int64_t turns = 24;  // turns per run of a case

@@ -9,6 +9,11 @@
 
 namespace drape {
 
+/// Returns the exponent p of the best fit y = c xᵖ: the least-squares slope of the points' logarithms. Points that are
+/// not positive are ignored.
+/// @returns NaN with fewer than two different x
+double fitted_exponent(const std::vector<std::array<double, 2>>& points);
+
 /// The time of each solver for each problem.
 struct ProfileTimes {
   std::vector<std::string> problems, solvers;

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "core/atomic_file.hpp"
+#include "core/files.hpp"
 #include "core/text.hpp"
-#include "html/markdown.hpp"
-#include "html/page.hpp"
+#include "reports/latex.hpp"
+#include "reports/page.hpp"
 #include "sim/kernels/kernels.hpp"
 
 namespace drape {
@@ -62,7 +62,7 @@ html::Markup to_html(const StudySection& section, const std::string& id, bool is
 
 std::string to_markdown(const StudySection& section) {
   const auto image = [](const std::string& words, const std::string& file) {
-    return fmt::format("![{}]({})\n\n", markdown(words), link_target(file));
+    return fmt::format("![{}]({})\n\n", markdown(words), link_to_file(file));
   };
   std::string text = fmt::format("\n## {}\n\n", markdown(section.title));
   for (const std::string& paragraph : section.text) text += markdown(paragraph) + "\n\n";

@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/wrap.hpp"
-#include "figures/diagram_files.hpp"
-#include "figures/result_table.hpp"
-#include "html/components.hpp"
+#include "core/text.hpp"
+#include "reports/components.hpp"
+#include "reports/diagram_files.hpp"
+#include "reports/result_table.hpp"
+#include "study/reference.hpp"
 #include "study/stability_map.hpp"
-#include "study/study_motion.hpp"
 
 namespace drape {
 

@@ -8,6 +8,7 @@
 
 #include "run/progress.hpp"
 #include "study/measure.hpp"
+#include "study/report.hpp"
 
 namespace drape {
 
@@ -54,5 +55,8 @@ struct ScalingStudy {
 /// @returns nothing if stopped
 std::optional<ScalingStudy> study_scaling(const ScalingOptions& options, const std::stop_token& stop,
                                           Progress& progress);
+
+/// Returns the report of a study for all output formats.
+StudyReport scaling_report(const ScalingStudy& study);
 
 }  // namespace drape

@@ -1,15 +1,26 @@
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "run/progress.hpp"
+#include "run/shard.hpp"
 #include "sim/settings.hpp"
 #include "study/energy_over_time.hpp"
+#include "study/reference.hpp"
 
 namespace drape {
+
+/// Returns two motions of the stability maps' cloth by semi-implicit Euler, with 0.95 and 1.2 times the safe step. The
+/// second ends early, with its blow-up.
+std::vector<StudyMotion> limit_motions();
+
+/// Describes them in a sentence.
+std::string describe_limit_motions();
 
 /// The outcome of a run with one step length and one stiffness.
 enum class StabilityOutcome {
@@ -96,5 +107,26 @@ std::vector<double> stability_costs(const StabilityStudy& study);
 /// @returns false if stopped
 bool measure_stability(StabilityStudy& study, const std::vector<std::size_t>& parts, const std::stop_token& stop,
                        Progress& progress);
+
+/// File name of the measurements of a shard of a stability study.
+inline constexpr const char* stability_runs_name = "stability-runs.csv";
+
+/// Returns the parts of a study in a shard, ascending.
+std::vector<std::size_t> parts_of_shard(const StabilityStudy& study, const Shard& shard);
+
+/// Returns the measurements of a study, as RunsWriter writes them.
+/// @param shard that was measured
+std::string stability_runs(const StabilityStudy& study, const Shard& shard);
+
+/// A study merged from shards.
+struct MergedStability {
+  StabilityStudy study;
+  std::vector<Shard> missing;  ///< shards without measurements
+};
+
+/// Reads and merges the measurements of shards.
+/// @param files at least one
+/// @throws UsageError if a file is damaged, or they belong to different studies or programs
+MergedStability merge_stability(const std::vector<std::filesystem::path>& files);
 
 }  // namespace drape

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "figures/result_table.hpp"
-#include "html/diagram.hpp"
+#include "reports/diagram.hpp"
+#include "reports/result_table.hpp"
 #include "study/stability.hpp"
 
 namespace drape {

@@ -1,12 +1,11 @@
 #include "study/stability_report.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
-#include "scene/method_names.hpp"
-#include "study/stability_motions.hpp"
+#include "scene/scene.hpp"
+#include "study/stability.hpp"
 
 namespace drape {
 namespace {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "sim/cloth.hpp"
+#include "study/validation.hpp"
 
 namespace drape {
 
@@ -27,5 +29,34 @@ std::vector<std::string> measure_names();
 /// @throws UsageError if the motion is too short, or lacks data that the measure needs
 std::map<std::string, double> measure_motion(const std::string& measure, const ObservedMotion& motion,
                                              const std::map<std::string, double>& given);
+
+/// File name of all measurements of a validation study.
+inline constexpr const char* validation_runs_name = "runs.csv";
+
+/// File name of the measurements of a shard.
+inline constexpr const char* validation_shard_name = "validation-runs.csv";
+
+/// Returns all measurements so far as a file of runs, see RunsWriter.
+std::string validation_runs(const ValidationStudy& study);
+
+/// Copies the measurements of a file into a planned study.
+/// @param study planned with the same command as the file
+/// @throws UsageError if the file is damaged or belongs to another study
+void read_validation_runs(const std::filesystem::path& file, ValidationStudy& study);
+
+/// Returns the study in a file, with the runs that it has.
+/// @throws UsageError likewise
+ValidationStudy validation_study(const std::filesystem::path& file);
+
+/// A study merged from shards.
+struct MergedValidation {
+  ValidationStudy study;
+  std::vector<Shard> missing;  ///< shards without measurements
+};
+
+/// Reads and merges the measurements of shards.
+/// @param files at least one
+/// @throws UsageError if a file is damaged, or they belong to different studies
+MergedValidation merge_validation(const std::vector<std::filesystem::path>& files);
 
 }  // namespace drape

@@ -1,7 +1,6 @@
 #include "study/validation_report.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

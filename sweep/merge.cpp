@@ -1,14 +1,13 @@
 #include "sweep/merge.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "core/error.hpp"
-#include "core/names_in_folders.hpp"
+#include "core/installation.hpp"
 #include "core/text.hpp"
 #include "sweep/run_sweep.hpp"
 

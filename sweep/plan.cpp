@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -12,16 +11,15 @@
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/hash.hpp"
 #include "core/installation.hpp"
-#include "core/read_file.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
-#include "run/annotations.hpp"
 #include "run/outputs.hpp"
-#include "scene/problems.hpp"
-#include "sweep/common_side.hpp"
-#include "sweep/estimate.hpp"
+#include "run/shard.hpp"
+#include "scene/document.hpp"
+#include "sweep/page.hpp"
 
 namespace drape {
 using Json = nlohmann::ordered_json;

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 #include <sys/file.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <mutex>
@@ -15,9 +14,9 @@
 
 #include "core/parallel.hpp"
 #include "core/text.hpp"
-#include "output/contact_sheet.hpp"
+#include "output/png_encoder.hpp"
 #include "run/run_scene.hpp"
-#include "sweep/common_side.hpp"
+#include "sweep/page.hpp"
 
 namespace drape {
 namespace {

@@ -9,6 +9,9 @@
 
 #include "audit/motion_audit.hpp"
 #include "motion/reader.hpp"
+#include "render/settings.hpp"
+#include "reports/players.hpp"
+#include "reports/result_table.hpp"
 #include "run/progress.hpp"
 #include "scene/scene.hpp"
 
@@ -54,5 +57,32 @@ struct AuditReport {
 /// @throws UsageError if a state is non-finite or has invalid vertices
 AuditReport audit_motion(const Scene& scene, const std::shared_ptr<MotionReader>& recorded, const AuditOptions& options,
                          const std::stop_token& stop, Progress& progress);
+
+/// Returns the name of a check for a table: "triangles that cross".
+std::string check_name(audit::Check check);
+
+/// Describes the worst state of a check: "at 0.4 s (step 40): 2 pairs; cloth edge 1 2 goes through …".
+std::string describe_worst(audit::Check check, const audit::CheckFindings& found);
+
+/// Returns a row for each check, and notes on findings and omitted checks.
+ResultTable audit_table(const AuditReport& report);
+
+/// Returns the outcome in one sentence.
+std::string audit_summary(const AuditReport& report);
+
+/// Pictures of the worst state of a check: the whole cloth and a close view of the finding.
+struct DrawnFinding {
+  audit::Check check;
+  std::string whole, close;   ///< PNG files
+  html::PlayedMotion turned;  ///< interactive view; without frames if it is too large for a browser
+};
+
+/// Draws the worst state of each check with findings; the vertices concerned are red.
+/// @throws UsageError, OutputError as Renderer
+std::vector<DrawnFinding> draw_findings(const Scene& scene, const AuditReport& report, GlBackend backend);
+
+/// Returns a self-contained page with the table of checks and the worst states.
+/// @param command command that makes the page again
+std::string audit_page(const AuditReport& report, const std::vector<DrawnFinding>& drawn, const std::string& command);
 
 }  // namespace drape

@@ -1,10 +1,165 @@
 #include "output/gif/compactor.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
 
-#include "output/gif/color_table.hpp"
+#include "core/error.hpp"
+#include "output/gif/palette.hpp"
 
 namespace drape::gif {
+namespace {
+
+/// Lengths of the next unchanged and replaced stretches [bytes].
+struct Lengths {
+  std::uint32_t kept = 0, replaced = 0;
+};
+
+using Word = std::uint64_t;  // bytes compared at once
+
+Word word(const std::uint8_t* bytes) {
+  Word value;
+  std::memcpy(&value, bytes, sizeof value);
+  return value;
+}
+
+/// Returns the first position from `begin` where the equal stretch is longer than its description.
+std::size_t next_stay(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, std::size_t begin) {
+  std::size_t i = begin;
+  for (; i + 2 * sizeof(Word) <= a.size(); i += sizeof(Word)) {
+    if (word(&a[i]) == word(&b[i]) && word(&a[i + sizeof(Word)]) == word(&b[i + sizeof(Word)])) return i;
+  }
+  return a.size();
+}
+
+}  // namespace
+
+std::size_t next_difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, std::size_t begin) {
+  std::size_t i = begin;
+  while (i + sizeof(Word) <= a.size() && word(&a[i]) == word(&b[i])) i += sizeof(Word);
+  while (i < a.size() && a[i] == b[i]) ++i;
+  return i;
+}
+
+void pack_difference(std::span<const std::uint8_t> before, std::span<const std::uint8_t> now,
+                     std::vector<std::uint8_t>& packed) {
+  packed.clear();
+  for (std::size_t i = 0; i < now.size();) {
+    const std::size_t differs = next_difference(before, now, i);
+    const std::size_t end = next_stay(before, now, differs);
+    const Lengths lengths{static_cast<std::uint32_t>(differs - i), static_cast<std::uint32_t>(end - differs)};
+    const auto* header = reinterpret_cast<const std::uint8_t*>(&lengths);
+    packed.insert(packed.end(), header, header + sizeof lengths);
+    packed.insert(packed.end(), now.begin() + static_cast<std::ptrdiff_t>(differs),
+                  now.begin() + static_cast<std::ptrdiff_t>(end));
+    i = end;
+  }
+}
+
+bool apply_difference(std::span<const std::uint8_t> packed, std::span<std::uint8_t> frame) {
+  while (!packed.empty()) {
+    Lengths lengths;
+    if (packed.size() < sizeof lengths) return false;
+    std::memcpy(&lengths, packed.data(), sizeof lengths);
+    packed = packed.subspan(sizeof lengths);
+    if (lengths.kept > frame.size()) return false;
+    frame = frame.subspan(lengths.kept);
+    if (lengths.replaced > frame.size() || lengths.replaced > packed.size()) return false;
+    std::copy_n(packed.begin(), lengths.replaced, frame.begin());
+    frame = frame.subspan(lengths.replaced);
+    packed = packed.subspan(lengths.replaced);
+  }
+  return frame.empty();
+}
+
+FrameSpool::FrameSpool(const PartialFile& output) : spool_(output, "its frames") {}
+
+void FrameSpool::append(const Image& image) {
+  if (count_ == 0) last_ = Image(image.width, image.height);
+  if (image.width != last_.width || image.height != last_.height) {
+    throw std::invalid_argument("the frames of a film must have one size");
+  }
+  pack_difference(last_.pixels, image.pixels, packed_);
+  last_.pixels = image.pixels;
+
+  const std::uint64_t size = packed_.size();
+  spool_.append({reinterpret_cast<const char*>(&size), sizeof size});
+  spool_.append({reinterpret_cast<const char*>(packed_.data()), size});
+  ++count_;
+}
+
+void FrameSpool::rewind() {
+  spool_.rewind();
+  std::fill(last_.pixels.begin(), last_.pixels.end(), std::uint8_t{0});
+}
+
+const Image& FrameSpool::next() {
+  std::uint64_t size = 0;
+  spool_.read(&size, sizeof size);
+  packed_.resize(size);
+  spool_.read(packed_.data(), size);
+  if (!apply_difference(packed_, last_.pixels)) throw OutputError("a frame kept on disk has changed there");
+  return last_;
+}
+
+namespace {
+
+constexpr int symbol_bits = 8, least_width = symbol_bits + 1, most_width = 12;
+constexpr std::size_t most_of_block = 255;
+
+}  // namespace
+
+void LzwDictionary::clear() {
+  size_ = end_code + 1;
+  first_child_.fill(none);
+}
+
+void LzwDictionary::extend(int entry, int symbol) {
+  symbol_[size_] = static_cast<std::uint8_t>(symbol);
+  parent_[size_] = static_cast<std::int16_t>(entry);
+  next_sibling_[size_] = first_child_[entry];
+  first_child_[entry] = static_cast<std::int16_t>(size_);
+  ++size_;
+}
+
+LzwCodes::LzwCodes() : bytes_{static_cast<char>(symbol_bits), '\0'}, block_(1), width_(least_width) { put_clear(); }
+
+void LzwCodes::put_byte() {
+  if (bytes_.size() - block_ > most_of_block) {
+    bytes_[block_] = static_cast<char>(most_of_block);
+    block_ = bytes_.size();
+    bytes_.push_back('\0');
+  }
+  bytes_.push_back(static_cast<char>(bits_ & 0xff));
+  bits_ >>= 8;
+  bit_count_ -= 8;
+}
+
+void LzwCodes::put_bits(int code) {
+  bits_ |= static_cast<std::uint32_t>(code) << bit_count_;
+  for (bit_count_ += width_; bit_count_ >= 8;) put_byte();
+}
+
+void LzwCodes::put(int code, int size) {
+  put_bits(code);
+  if (size == 1 << width_ && width_ < most_width) ++width_;
+}
+
+void LzwCodes::put_clear() {
+  put_bits(LzwDictionary::clear_code);
+  width_ = least_width;
+}
+
+std::string LzwCodes::finish() {
+  put_bits(LzwDictionary::end_code);
+  if (bit_count_ > 0) put_byte();
+  bytes_[block_] = static_cast<char>(bytes_.size() - block_ - 1);
+  if (bytes_[block_] != '\0') bytes_.push_back('\0');
+  return std::move(bytes_);
+}
+
 namespace {
 
 /// Returns the squared error, channels weighted by brightness. A difference of d in all channels gives 9·d².

@@ -1,15 +1,111 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "output/gif/indexed_frame.hpp"
-#include "output/gif/lzw.hpp"
+#include "core/files.hpp"
+#include "output/gif/dither.hpp"
 #include "output/gif/palette.hpp"
+#include "render/image.hpp"
 
 namespace drape::gif {
+
+/// Encodes a frame of a film relative to the previous one: lengths of unchanged stretches of bytes, alternating with
+/// the bytes that replace others.
+///
+/// Run lengths are fast. Most of a frame is unchanged and is passed at the speed of memory. Moved parts differ in
+/// nearly every byte; compressing them would take longer than writing them to disk.
+/// @param packed  result; overwritten
+void pack_difference(std::span<const std::uint8_t> before, std::span<const std::uint8_t> now,
+                     std::vector<std::uint8_t>& packed);
+
+/// Computes the next frame from the previous one.
+/// @returns true if the difference belongs to frames of this size; otherwise the frame's content is undefined
+bool apply_difference(std::span<const std::uint8_t> packed, std::span<std::uint8_t> frame);
+
+/// Returns the first position from `begin` where bytes differ; their number if there is none.
+std::size_t next_difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, std::size_t begin);
+
+/// Stores the frames of a film on disk, unchanged, to read them again. Holds one frame in memory.
+class FrameSpool {
+ public:
+  /// @param output  destination of the film: the spool lies in its folder, and messages name it
+  /// @throws OutputError
+  explicit FrameSpool(const PartialFile& output);
+
+  /// @throws OutputError           with the system's reason, such as a full disk
+  /// @throws std::invalid_argument if the image has another size than the first one
+  void append(const Image& image);
+
+  [[nodiscard]] int count() const { return count_; }
+
+  /// Returns to the first frame. No append() may follow.
+  void rewind();
+
+  /// Returns the next frame, valid until the next call. Call it at most count() times after rewind().
+  const Image& next();
+
+ private:
+  Spool spool_;
+  Image last_;                        // the frame that the next one is encoded relative to
+  std::vector<std::uint8_t> packed_;  // encoded difference
+  int count_ = 0;
+};
+
+/// The LZW dictionary of a GIF (Welch, "A technique for high-performance data compression", 1984). Entries 0…255 are
+/// the symbols; each further entry extends another by a symbol and is linked as its child.
+class LzwDictionary {
+ public:
+  static constexpr int clear_code = 256, end_code = 257;
+  static constexpr int none = -1;
+
+  LzwDictionary() { clear(); }
+
+  /// Removes all entries but the symbols.
+  void clear();
+  /// Must be false before extend().
+  [[nodiscard]] bool is_full() const { return size_ == capacity; }
+  void extend(int entry, int symbol);
+
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] int first_child(int entry) const { return first_child_[entry]; }
+  [[nodiscard]] int next_sibling(int entry) const { return next_sibling_[entry]; }
+  [[nodiscard]] int parent(int entry) const { return parent_[entry]; }
+  [[nodiscard]] int symbol(int entry) const { return symbol_[entry]; }
+
+ private:
+  static constexpr int capacity = 4095;  // one less than the number of codes: some decoders count ahead
+  std::array<std::int16_t, capacity> first_child_, next_sibling_, parent_;
+  std::array<std::uint8_t, capacity> symbol_;
+  int size_ = 0;
+};
+
+/// Codes of a picture in GIF's format: 9 to 12 bits, depending on the dictionary's size, the lowest bit first, in
+/// blocks of up to 255 bytes that begin with their length.
+class LzwCodes {
+ public:
+  LzwCodes();
+
+  /// @param size  size of the dictionary before this code extends it
+  void put(int code, int size);
+  /// Makes the decoder remove all entries but the symbols.
+  void put_clear();
+  /// Ends the picture. @returns its bytes, from the code size to the empty block
+  std::string finish();
+
+ private:
+  void put_bits(int code);
+  void put_byte();
+
+  std::string bytes_;
+  std::size_t block_ = 0;  // position of the current block's length
+  std::uint32_t bits_ = 0;
+  int bit_count_ = 0, width_;
+};
 
 /// The changes of a frame relative to the previous one.
 struct Patch {

@@ -1,12 +1,80 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "output/gif/color_histogram.hpp"
+#include "render/image.hpp"
 
 namespace drape::gif {
+
+/// Returns 0xRRGGBB of a pixel's three bytes.
+inline std::uint32_t rgb_number(const std::uint8_t* pixel) {
+  return static_cast<std::uint32_t>(pixel[0] << 16 | pixel[1] << 8 | pixel[2]);
+}
+
+inline int red(std::uint32_t color) { return static_cast<int>(color >> 16 & 0xff); }
+inline int green(std::uint32_t color) { return static_cast<int>(color >> 8 & 0xff); }
+inline int blue(std::uint32_t color) { return static_cast<int>(color & 0xff); }
+
+/// A value for each of the 2²⁴ colours 0xRRGGBB, initially T{}. Memory is allocated per used cube of 16×16×16 colours:
+/// a film's colours lie in few cubes, and neighbouring pixels mostly in the same.
+template <class T>
+class ColorTable {
+ public:
+  T& operator[](std::uint32_t color) {
+    std::unique_ptr<Cube>& cube = cubes_[interleaved(color >> 4)];
+    if (!cube) cube = std::make_unique<Cube>();
+    return (*cube)[interleaved(color)];
+  }
+
+  /// Calls f(color, value) for every colour of the allocated cubes, always in the same order.
+  template <class F>
+  void for_each(F f) const {
+    for (std::uint32_t c = 0; c < cubes_.size(); ++c) {
+      if (!cubes_[c]) continue;
+      for (std::uint32_t i = 0; i < side * side * side; ++i) f(spread(c) << 4 | spread(i), (*cubes_[c])[i]);
+    }
+  }
+
+ private:
+  static constexpr std::size_t side = 16;
+  using Cube = std::array<T, side * side * side>;
+
+  /// Converts 0x-R-G-B to 0xRGB.
+  static std::uint32_t interleaved(std::uint32_t c) { return (c >> 8 & 0xf00) | (c >> 4 & 0xf0) | (c & 0xf); }
+  /// Inverts interleaved().
+  static std::uint32_t spread(std::uint32_t c) { return (c & 0xf00) << 8 | (c & 0xf0) << 4 | (c & 0xf); }
+
+  std::array<std::unique_ptr<Cube>, side * side * side> cubes_;
+};
+
+/// A colour and its number of pixels.
+struct ColorCount {
+  std::uint32_t color = 0;  ///< 0xRRGGBB
+  std::uint64_t count = 0;
+};
+
+/// Counts every colour of a film separately.
+class ColorHistogram {
+ public:
+  void add(const Image& image);
+
+  /// Returns each colour once, in an order that depends only on the set of colours.
+  [[nodiscard]] std::vector<ColorCount> colors() const;
+
+ private:
+  ColorTable<std::uint64_t> counts_;
+};
+
+/// Chooses at most `most` colours that represent the given ones; few given colours are returned unchanged.
+///
+/// The colours are cut into boxes (Heckbert, "Color image quantization for frame buffer display", 1982), each time
+/// where the squared error of all pixels falls most (Wu, "Color quantization by dynamic programming and principal
+/// analysis", 1992). Each box becomes its mean.
+std::vector<std::uint32_t> representative_colors(std::vector<ColorCount> colors, std::size_t most);
 
 /// The colours of a GIF, by index.
 struct Palette {

@@ -1,15 +1,14 @@
 #include "render/gl/context.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <thread>
 
 #include "core/error.hpp"
 #include "core/installation.hpp"
-#include "core/memory.hpp"
-#include "render/gl/llvmpipe.hpp"
+#include "core/machine.hpp"
+#include "render/gl/inspect.hpp"
 
 namespace drape {
 namespace {

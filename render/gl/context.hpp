@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/backend.hpp"
+#include "render/settings.hpp"
 
 namespace drape {
 

@@ -1,7 +1,6 @@
 #include "render/gl/device.hpp"
 
 #include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>

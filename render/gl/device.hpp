@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "render/gl/context.hpp"
-#include "render/gl/functions.hpp"
 #include "render/gl/program.hpp"
 
 namespace drape {

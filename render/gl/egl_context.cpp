@@ -1,13 +1,12 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <fmt/format.h>
-
 #include <array>
 
 #include "core/error.hpp"
-#include "core/shared_library.hpp"
+#include "core/installation.hpp"
 #include "render/gl/context.hpp"
-#include "render/gl/llvmpipe.hpp"
+#include "render/gl/inspect.hpp"
 
 namespace drape {
 namespace {

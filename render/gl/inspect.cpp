@@ -1,9 +1,14 @@
 #include "render/gl/inspect.hpp"
 
+#include <fmt/format.h>
+#include <charconv>
+#include <cstdlib>
+#include <mutex>
 #include <string_view>
 
+#include "core/error.hpp"
 #include "render/gl/context.hpp"
-#include "render/gl/functions.hpp"
+#include "render/gl/program.hpp"
 
 namespace drape {
 namespace {
@@ -42,6 +47,54 @@ GlFacts inspect_backend(GlBackend backend) {
           .max_texture_size = number(gl, GL_MAX_TEXTURE_SIZE),
           .max_picture_size = number(gl, GL_MAX_RENDERBUFFER_SIZE),
           .max_anisotropy = max_anisotropy(gl)};
+}
+
+namespace {
+
+/// Guards the environment: renderers may be made concurrently, and each reads and sets variables.
+std::mutex& environment() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+void limit_vector_width() {
+  constexpr int widest = 256;
+  const char* given = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+  if (given == nullptr) {
+    setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0);
+    return;
+  }
+  const std::string_view text = given;
+  int width = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), width);
+  if (error != std::errc{} || end != text.data() + text.size() || width < 128 || width > widest) {
+    throw UsageError(
+        fmt::format("the environment variable LP_NATIVE_VECTOR_WIDTH is \"{}\"; expected 128 or 256, since Mesa's "
+                    "software renderer "
+                    "crashes with more: unset it",
+                    text));
+  }
+}
+
+}  // namespace
+
+void limit_llvmpipe_vector_width() {
+  const std::scoped_lock lock(environment());
+  limit_vector_width();
+}
+
+void prepare_llvmpipe() {
+  const std::scoped_lock lock(environment());
+  const char* driver = std::getenv("GALLIUM_DRIVER");
+  if (driver != nullptr && *driver != '\0' && std::string_view(driver) != "llvmpipe") {
+    throw OutputError(fmt::format(
+        "cannot draw: the environment variable GALLIUM_DRIVER is \"{}\"; expected llvmpipe, Mesa's software "
+        "renderer: unset it",
+        driver));
+  }
+  limit_vector_width();
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);
+  setenv("EGL_LOG_LEVEL", "fatal", 0);
 }
 
 }  // namespace drape

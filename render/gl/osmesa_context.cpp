@@ -1,12 +1,11 @@
 #include <GL/osmesa.h>
-
 #include <array>
 #include <cstdint>
 
 #include "core/error.hpp"
-#include "core/shared_library.hpp"
+#include "core/installation.hpp"
 #include "render/gl/context.hpp"
-#include "render/gl/llvmpipe.hpp"
+#include "render/gl/inspect.hpp"
 
 namespace drape {
 namespace {

@@ -1,15 +1,27 @@
 #include "render/gl/program.hpp"
 
 #include <fmt/format.h>
-
 #include <charconv>
 #include <sstream>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/read_file.hpp"
+#include "core/files.hpp"
+#include "render/gl/context.hpp"
 
 namespace drape {
+
+GlFunctions::GlFunctions(const GlContext& context) {
+  const auto fetch = [&context](const char* name) {
+    const GlContext::Function function = context.get_proc_address(name);
+    if (function == nullptr) throw OutputError(std::string("the OpenGL library has no function ") + name);
+    return function;
+  };
+#define DRAPE_GL_FETCH(type, name) name = reinterpret_cast<type>(fetch("gl" #name));
+  DRAPE_GL_FUNCTIONS(DRAPE_GL_FETCH)
+#undef DRAPE_GL_FETCH
+}
+
 namespace {
 
 /// A shader's text with its includes resolved, and its files: file k is GLSL's source string k.

@@ -1,13 +1,19 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
-#include "core/read_file.hpp"
+#include "core/files.hpp"
+#include "sim/mesh.hpp"
 
 namespace drape {
 
@@ -66,5 +72,61 @@ struct SourcePlace {
 
 /// Quotes a piece of a file for a message: cut if long or at the end of the line, without control characters.
 std::string in_quotes(std::string_view piece);
+
+/// Returns true if a file name denotes a sequence: it contains {frame} or {frame:04}.
+bool names_frames(const std::filesystem::path& file);
+
+/// Returns true if a file belongs to such a sequence.
+bool is_frame(const std::filesystem::path& file, const std::filesystem::path& named);
+
+/// Returns the files of a sequence like "body/{frame:04}.obj", by number. Numbers are consecutive from any first one.
+/// 04 pads shorter numbers with zeros to 4 digits.
+/// @throws UsageError if there are none, or if one is missing in between
+std::vector<std::filesystem::path> frame_files(const std::filesystem::path& file);
+
+/// Largest number of corners of a concave face. Ear clipping takes time cubic in this number.
+inline constexpr std::size_t most_concave_corners = 256;
+
+/// Builder of a Mesh from the vertices and polygons of a file.
+class MeshBuilder {
+ public:
+  using Uv = std::array<float, 2>;
+
+  /// Adds a vertex at a position [m]. Vertices are numbered from 0 in the order of insertion.
+  void add_vertex(const Eigen::Vector3d& position) { positions_.push_back(position); }
+
+  [[nodiscard]] std::size_t vertex_count() const { return positions_.size(); }
+  [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
+
+  /// Adds a polygon as triangles: a fan from its first corner if convex, otherwise by ear clipping.
+  /// @param corners at least 3, all below vertex_count()
+  /// @param uvs one per corner, or empty
+  /// @return false, without adding it, if the polygon is concave with more than most_concave_corners corners
+  [[nodiscard]] bool add_polygon(std::span<const int> corners, std::span<const Uv> uvs);
+
+  /// Returns the mesh. If some polygons have texture coordinates, the others get (0, 0).
+  [[nodiscard]] Mesh finish();
+
+ private:
+  void add_triangle(const std::array<std::size_t, 3>& of, std::span<const int> corners, std::span<const Uv> uvs);
+
+  std::vector<Eigen::Vector3d> positions_;
+  std::vector<Triangle> triangles_;
+  std::vector<Uv> uvs_;
+};
+
+/// Triangulates a polygon in space: returns points.size() − 2 triangles as indices into `points`, with the polygon's
+/// winding. It clips ears (Meisters 1975) in the plane of the vector area (Newell's normal). A convex polygon gives the
+/// fan (0,1,2), (0,2,3), …. A self-crossing polygon still uses each corner, but its triangles may overlap.
+std::vector<std::array<std::size_t, 3>> triangulate(std::span<const Eigen::Vector3d> points);
+
+/// Options of a mesh file in a scene.
+struct MeshOptions {
+  enum class Up { y, z };
+
+  std::string prim = {};                         ///< prim of a USD file, "/World/cloth"; empty: the only mesh
+  std::optional<Up> up = {};                     ///< up axis of an OBJ, which does not store it; default z
+  std::optional<double> frames_per_second = {};  ///< frame rate of an OBJ sequence; default 24
+};
 
 }  // namespace drape

@@ -1,13 +1,15 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/mesh/source.hpp"
 #include "scene/usd/stage.hpp"
+#include "sim/body_shape.hpp"
 #include "sim/mesh.hpp"
-#include "sim/mesh_motion.hpp"
 
 namespace drape {
 
@@ -63,5 +65,29 @@ class UsdMovingMesh {
   class Reader;
   std::unique_ptr<Reader> reader_;
 };
+
+/// Returns the first value of an array attribute of a prim.
+/// @param components see UsdAttribute
+/// @throws UsageError if the prim has none, or it has another shape
+const UsdValue& usd_array(const UsdPrim& prim, std::string_view name, std::size_t components);
+
+/// Reads the mesh of a Mesh prim with the first sample of its points. Left-handed meshes and those mirrored by
+/// `to_world` are flipped, so that triangles are counterclockwise seen from the front.
+/// @throws UsageError "file:line:column: message"
+Mesh read_mesh_prim(const UsdPrim& prim, const Eigen::Affine3d& to_world);
+
+/// Returns the transform from prim coordinates to the world, in metres with z up: the xformOps of the prim and its
+/// ancestors in xformOpOrder, then the layer's unit and up axis. A y-up scene is turned by 90° about x. Operations are
+/// interpolated linearly between samples, quaternions along the shortest arc, and are constant outside.
+/// @param time [time codes]
+/// @throws UsageError for an unknown operation, one of the wrong type, or a matrix that is not affine
+Eigen::Affine3d world_transform(const UsdStage& stage, const UsdPath& path, double time);
+
+/// Converts a USD matrix, whose 16 numbers act on row vectors, p′ = p·M, by transposing it.
+/// @throws UsageError at the place unless it is affine
+Eigen::Affine3d usd_affine(const double* m, const SourcePlace& place);
+
+/// Returns the sample times [time codes] of all operations on a prim and its ancestors, increasing.
+std::vector<double> transform_times(const UsdPath& path);
 
 }  // namespace drape

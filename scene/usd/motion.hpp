@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "scene/mesh/source.hpp"
 #include "scene/usd/stage.hpp"
-#include "sim/sphere_track.hpp"
+#include "sim/mesh.hpp"
+#include "sim/tracks.hpp"
 
 namespace drape {
 
@@ -44,5 +46,55 @@ TransformTrack read_usd_motion(const std::filesystem::path& file);
 /// Reads the same motion as a sphere track.
 /// @throws UsageError also if nothing moves; a mesh moved only by its skeleton or its points is not a track
 std::shared_ptr<const SphereTrack> read_sphere_track(const std::filesystem::path& file);
+
+/// Motion of a mesh's points by a skeleton: linear blend skinning as UsdSkel defines it, without blend shapes,
+///   p' = W Σⱼ wⱼ Sⱼ Bⱼ⁻¹ G p / Σⱼ wⱼ.
+/// G is geomBindTransform and B the joint's bindTransform. S is the joint's transform in the skeleton: its own and its
+/// parents' translation, rotation and scale from the SkelAnimation, or restTransform for joints without animation. W
+/// maps the skeleton's coordinates to the world. The mesh's own transform is ignored.
+/// See https://openusd.org/release/api/_usd_skel__schema_overview.html
+class UsdSkin {
+ public:
+  /// Returns true if a mesh has a skin.
+  static bool is_on(const UsdPath& mesh);
+
+  /// Returns the skin of a mesh, if it has one. Skeleton, joints and weights may be inherited from ancestors.
+  /// @throws UsageError "file:line:column: message"
+  static std::optional<UsdSkin> of(const UsdStage& stage, const UsdPath& mesh);
+
+  /// Returns the sample times [time codes] of the skeleton, its ancestors and its animation.
+  [[nodiscard]] std::vector<double> times() const;
+
+  /// Returns the map from skeleton to world coordinates, after geomBindTransform; it tells the front of the mesh.
+  [[nodiscard]] Eigen::Affine3d bound_to_world(double time) const;
+
+  /// Computes the positions of points at a time [time codes], in the world [m].
+  /// @param points x, y, z of each, in the mesh's own coordinates
+  void pose(double time, const std::vector<double>& points, Vertices& x) const;
+
+ private:
+  struct Influence {
+    std::size_t joint = 0;
+    double weight = 0;
+  };
+
+  UsdSkin(const UsdStage& stage, UsdPath skeleton) : stage_(&stage), skeleton_(std::move(skeleton)) {}
+  void read_skeleton();
+  void read_animation();
+  void read_influences(const UsdPath& mesh);
+  [[nodiscard]] std::vector<Eigen::Affine3d> joints_at(double time) const;
+
+  const UsdStage* stage_;
+  UsdPath skeleton_;
+  std::vector<std::string> joints_;
+  std::vector<std::optional<std::size_t>> parents_;  // parent of each joint; may come later in the list
+  std::vector<Eigen::Affine3d> unbind_, rest_;  // per joint: Bⱼ⁻¹, and its rest transform relative to its parent
+  const UsdPrim* animation_ = nullptr;
+  std::vector<std::optional<std::size_t>> animated_;  // index of each joint in the animation
+  Eigen::Affine3d geometry_ = Eigen::Affine3d::Identity();
+  bool rigid_ = false;  // all points have the influences of the first
+  std::size_t per_point_ = 1;
+  std::vector<Influence> influences_;  // per_point_ for each point
+};
 
 }  // namespace drape

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "sim/cloth.hpp"
@@ -43,5 +45,65 @@ struct CurvatureElement {
 /// Triangles without an area, and their edges, do not bend.
 /// @param rigidity D, positive [N·m]
 std::vector<CurvatureElement> curvature_elements(const Cloth& cloth, double rigidity);
+
+/// A triangle of the rest shape, laid out in a plane.
+struct PlacedTriangle {
+  int triangle;
+  std::array<Eigen::Vector2d, 3> corners;  ///< [m]
+};
+
+/// Triangles of a cloth's rest shape, and their neighbours. Side k of a triangle leads from its corner k to the next.
+class RestSurface {
+ public:
+  /// Neighbour across a side: a triangle and its vertex opposite to that side, or −1 for both. At an edge of three or
+  /// more triangles it is the next one.
+  struct Beyond {
+    int triangle = -1, opposite = -1;
+  };
+
+  /// Refers to the cloth, which must outlive it.
+  explicit RestSurface(const Cloth& cloth);
+
+  [[nodiscard]] int triangle_count() const { return static_cast<int>(held_.size()); }
+  [[nodiscard]] const Triangle& triangle(int t) const { return cloth_.triangles[static_cast<std::size_t>(t)]; }
+  [[nodiscard]] Eigen::Vector3d place(int vertex) const { return cloth_.rest.row(vertex).transpose(); }
+  [[nodiscard]] const Beyond& beyond(int t, int side) const {
+    return beyond_[3 * static_cast<std::size_t>(t) + static_cast<std::size_t>(side)];
+  }
+  /// Returns true if all its vertices are pinned.
+  [[nodiscard]] bool held(int t) const { return held_[static_cast<std::size_t>(t)]; }
+  /// Returns true if a triangle is free and has a neighbour.
+  [[nodiscard]] bool bends(int t) const;
+
+  /// Returns the triangle with corner 0 at the origin, corner 1 on the positive x axis, and corner 2 above it.
+  [[nodiscard]] PlacedTriangle lay_out(int t) const;
+  /// Returns the neighbour across a side, rotated around that side into the plane of `from`.
+  [[nodiscard]] PlacedTriangle unfold(const PlacedTriangle& from, int side) const;
+
+ private:
+  const Cloth& cloth_;
+  std::vector<Beyond> beyond_;
+  std::vector<bool> held_;
+};
+
+/// Returns the outward unit normal of a side.
+Eigen::Vector2d outward(const PlacedTriangle& t, int side);
+
+/// A linear function of the vertices' positions, Σ weight·x(vertex). Vertices may repeat.
+using LinearForm = std::vector<std::pair<int, double>>;
+
+/// Returns the slope of a linear function on a triangle along a unit vector of its plane.
+LinearForm slope_inside(const RestSurface& surface, const PlacedTriangle& t, const Eigen::Vector2d& along);
+
+/// Returns the outward slope of a smooth function across a side of a triangle, at the middle of the side, from the
+/// function's values at the surrounding vertices. Exact for quadratic functions of the unfolded rest shape.
+///
+/// If the triangle and its neighbour form a parallelogram, their four vertices determine the slope. Otherwise a
+/// quadratic function is fitted by least squares to the vertices of both and of the triangles beyond their sides.
+/// Further rings are added until it is determined. A patch ends at a clamp, and its function is fitted to the clamp's
+/// slope. At the side of a clamp, the clamp's slope is the result.
+/// @param t    a free triangle
+/// @param side with a triangle beyond it
+LinearForm edge_slope(const RestSurface& surface, const PlacedTriangle& t, int side);
 
 }  // namespace drape

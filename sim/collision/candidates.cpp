@@ -6,7 +6,8 @@
 #include <limits>
 #include <numeric>
 
-#include "sim/collision/impact.hpp"
+#include "sim/collision/distance.hpp"
+#include "sim/parallel/loops.hpp"
 
 namespace drape {
 namespace {
@@ -207,6 +208,248 @@ double CollisionCandidates::steps_ahead(const std::vector<Point>& from, const st
     return longest;
   };
   return std::min(most_ahead, furthest * edge_length_ / largest_part(threads_, std::ssize(from), longest_of));
+}
+
+namespace {
+
+using Index = std::size_t;
+
+constexpr int group_size = 12;          // maximum number of triangles
+constexpr std::size_t usual_near = 32;  // body triangles near a group; its memory grows if there are more
+
+Box larger(const Box& box, double margin) { return {box.low.array() - margin, box.high.array() + margin}; }
+
+Box around_both(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
+
+bool holds(const Box& outer, const Box& inner) {
+  return (outer.low.array() <= inner.low.array()).all() && (inner.high.array() <= outer.high.array()).all();
+}
+
+/// Returns a lower bound on the distance of two boxes [m].
+double distance(const Box& a, const Box& b) {
+  return std::max({(a.low - b.high).maxCoeff(), (b.low - a.high).maxCoeff(), 0.0});
+}
+
+/// Returns the box around the paths of vertices.
+Box way_box(std::span<const int> vertices, const BodyStep& step) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box box{Point::Constant(infinity), Point::Constant(-infinity)};
+  for (const int i : vertices) {
+    const Point &a = step.from[Index(i)], &b = step.to[Index(i)];
+    box.low = box.low.cwiseMin(a.cwiseMin(b));
+    box.high = box.high.cwiseMax(a.cwiseMax(b));
+  }
+  return box;
+}
+
+/// Returns an upper bound on the displacement of the body's points in the step, relative to an earlier travel [m].
+double travel_since(double travel, const BodyStep& step) {
+  return std::max(std::abs(step.start.travel() - travel), std::abs(step.end.travel() - travel));
+}
+
+/// Returns true if a slab along a body triangle, wider than `reach` [m], separates it from a cloth triangle throughout
+/// the step.
+bool parted(const Triangle& a, const Triangle& b, const Point& axis, const BodyStep& step, double reach) {
+  double above = std::numeric_limits<double>::infinity(), below = above;
+  for (const std::vector<Point>* at : {&step.from, &step.to}) {
+    const auto height = [&](int i) { return axis.dot((*at)[Index(i)]); };
+    const double a0 = height(a[0]), a1 = height(a[1]), a2 = height(a[2]);
+    const double b0 = height(b[0]), b1 = height(b[1]), b2 = height(b[2]);
+    above = std::min(above, std::min({a0, a1, a2}) - std::max({b0, b1, b2}));
+    below = std::min(below, std::min({b0, b1, b2}) - std::max({a0, a1, a2}));
+  }
+  return std::max(above, below) > reach;
+}
+
+}  // namespace
+
+BodyCandidates::BodyCandidates(const MeshTopology& body, int body_vertices, const Cloth& cloth, double margin,
+                               const Threads& threads)
+    : threads_(for_so_many(threads, cloth.vertex_count())),
+      cloth_count_(cloth.vertex_count()),
+      margin_(margin),
+      pinned_(Index(cloth_count_), 0),
+      body_patches_(make_patches(body.triangles, cloth_count_, body_vertices)) {
+  for (const int pin : cloth.pins) pinned_[Index(pin)] = 1;
+  const std::vector<Patch> patches = make_patches(cloth.triangles, 0, cloth_count_);
+  std::vector<Box> boxes;
+  for (const Patch& patch : patches) {
+    const auto corner = [&](int i) -> Point { return cloth.rest.row(i).transpose(); };
+    const Point a = corner(patch.corners[0]), b = corner(patch.corners[1]), c = corner(patch.corners[2]);
+    boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
+  }
+  TriangleTree tree;
+  tree.build(boxes, group_size);
+  std::vector<std::pair<Index, Index>> ends;  // ends of the groups' triangles and vertices
+  tree.for_leaves([&](std::span<const int> leaf) {
+    const auto first = static_cast<std::ptrdiff_t>(vertices_.size());
+    for (const int t : leaf) {
+      cloth_patches_.push_back(patches[Index(t)]);
+      const Triangle& corners = patches[Index(t)].corners;
+      vertices_.insert(vertices_.end(), corners.begin(), corners.end());
+    }
+    std::sort(vertices_.begin() + first, vertices_.end());
+    vertices_.erase(std::unique(vertices_.begin() + first, vertices_.end()), vertices_.end());
+    ends.emplace_back(cloth_patches_.size(), vertices_.size());
+  });
+  findings_.resize(threads_.count() == 1 ? 1 : most_parts);
+  Index patch = 0, vertex = 0;
+  const Box nothing{Point::Constant(1), Point::Constant(-1)};
+  for (const auto& [patch_end, vertex_end] : ends) {
+    groups_.push_back({std::span<const Patch>(cloth_patches_).subspan(patch, patch_end - patch),
+                       std::span<const int>(vertices_).subspan(vertex, vertex_end - vertex), nothing});
+    groups_.back().near.reserve(usual_near);
+    patch = patch_end;
+    vertex = vertex_end;
+  }
+}
+
+template <class Find>
+void BodyCandidates::find_all(Find&& find) {
+  const int parts = static_cast<int>(findings_.size());
+  const auto count = static_cast<Eigen::Index>(groups_.size());
+  threads_.for_each(parts, [&](int part) {
+    SearchResults& findings = findings_[Index(part)];
+    findings.pairs.clear();
+    for (auto g = begin_of_part(count, part, parts); g < begin_of_part(count, part + 1, parts); ++g) {
+      Group& group = groups_[Index(g)];
+      const Index before = findings.pairs.size();
+      find(group, findings);
+      group.count = findings.pairs.size() - before;
+    }
+  });
+  pairs_.clear();
+  for (const SearchResults& findings : findings_) {
+    pairs_.insert(pairs_.end(), findings.pairs.begin(), findings.pairs.end());
+  }
+  Index begin = 0;
+  for (Group& group : groups_) {
+    group.begin = begin;
+    begin += group.count;
+  }
+}
+
+void BodyCandidates::find(const BodyStep& step, double reach) {
+  find_all([&](Group& group, SearchResults& findings) { find_of(group, step, reach, findings); });
+}
+
+void BodyCandidates::find_again(const BodyStep& step, double reach, const std::vector<char>& changed) {
+  pairs_.swap(before_);
+  find_all([&](Group& group, SearchResults& findings) {
+    if (std::ranges::any_of(group.vertices, [&](int i) { return changed[Index(i)] != 0; })) {
+      find_of(group, step, reach, findings);
+    } else {
+      const auto begin = before_.begin() + static_cast<std::ptrdiff_t>(group.begin);
+      findings.pairs.insert(findings.pairs.end(), begin, begin + static_cast<std::ptrdiff_t>(group.count));
+    }
+  });
+}
+
+void BodyCandidates::find_of(Group& group, const BodyStep& step, double reach, SearchResults& findings) const {
+  const Box box = way_box(group.vertices, step);
+  if (!holds(group.region, larger(box, reach + travel_since(group.travel, step)))) {
+    look_around(group, box, step, reach);
+  }
+  if (group.near.empty() || apart(group, step, reach)) return;
+  place_plane(group, step);
+  if (!apart(group, step, reach)) add_group(group, step, reach, findings);
+}
+
+void BodyCandidates::look_around(Group& group, const Box& box, const BodyStep& step, double reach) const {
+  const TriangleTree& tree = step.end.tree();
+  const double in_step = std::abs(step.end.travel() - step.start.travel());
+  const double margin = std::max(margin_, distance(box, tree.bounds()) / 2);
+  group.region = larger(box, reach + in_step + margin);
+  group.travel = step.end.travel();
+  group.near.clear();
+  tree.for_overlapping(group.region, [&](int t) {
+    if (group.region.overlaps(step.end.boxes()[Index(t)])) group.near.push_back(t);
+  });
+  std::ranges::sort(group.near);
+  group.level = std::numeric_limits<double>::infinity();  // no plane yet
+}
+
+void BodyCandidates::place_plane(Group& group, const BodyStep& step) {
+  const PlacedMesh& mesh = step.end;
+  Point middle = Point::Zero(), sum = Point::Zero();
+  for (const int i : group.vertices) middle += step.to[Index(i)];
+  middle /= static_cast<double>(group.vertices.size());
+  for (const int t : group.near) {
+    const Point& normal = mesh.face_normal(t);
+    const double side = normal.dot(middle - mesh.points()[Index(mesh.topology().triangles[Index(t)][0])]);
+    sum += side < 0 ? Point(-normal) : normal;
+  }
+  group.of_travel = mesh.travel();
+  group.axis = sum.stableNormalized();
+  group.level = -std::numeric_limits<double>::infinity();
+  for (const int t : group.near) {
+    for (const int i : mesh.topology().triangles[Index(t)]) {
+      group.level = std::max(group.level, group.axis.dot(mesh.points()[Index(i)]));
+    }
+  }
+}
+
+bool BodyCandidates::apart(const Group& group, const BodyStep& step, double reach) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const int i : group.vertices) {
+    lowest = std::min({lowest, group.axis.dot(step.from[Index(i)]), group.axis.dot(step.to[Index(i)])});
+  }
+  return lowest - group.level > reach + travel_since(group.of_travel, step);
+}
+
+void BodyCandidates::add_group(const Group& group, const BodyStep& step, double reach, SearchResults& findings) const {
+  const Box around = larger(way_box(group.vertices, step), reach);
+  auto& [pairs, near, near_boxes] = findings;
+  near.clear();
+  near_boxes.clear();
+  for (const int t : group.near) {
+    const Box& box = step.start.boxes()[Index(t)];
+    const Box on_its_way = &step.start == &step.end ? box : around_both(box, step.end.boxes()[Index(t)]);
+    if (!around.overlaps(on_its_way)) continue;
+    near.push_back(t);
+    near_boxes.push_back(on_its_way);
+  }
+  for (const Patch& patch : group.patches) {
+    const Box box = swept_box(patch, step.from, step.to, reach);
+    for (Index k = 0; k < near.size(); ++k) {
+      if (!box.overlaps(near_boxes[k])) continue;
+      const int t = near[k];
+      if (parted(patch.corners, body_patches_[Index(t)].corners, step.start.face_normal(t), step, reach)) continue;
+      add_pairs(patch, t, step, reach, pairs);
+    }
+  }
+}
+
+void BodyCandidates::add_pairs(const Patch& patch, int triangle, const BodyStep& step, double reach,
+                               std::vector<BodyPair>& pairs) const {
+  const Patch& body = body_patches_[Index(triangle)];
+  const auto &a = patch.corners, &b = body.corners;
+  for (Index c = 0; c < 3; ++c) {
+    if (patch.own_vertex[c]) {
+      add({Feature::vertex_triangle, {a[c], b[0], b[1], b[2]}}, triangle, -1, step, reach, pairs);
+    }
+    if (body.own_vertex[c]) {
+      add({Feature::vertex_triangle, {b[c], a[0], a[1], a[2]}}, triangle, static_cast<int>(c), step, reach, pairs);
+    }
+    if (!patch.own_edge[c]) continue;
+    for (Index d = 0; d < 3; ++d) {
+      if (!body.own_edge[d]) continue;
+      add({Feature::edge_edge, {a[c], a[(c + 1) % 3], b[d], b[(d + 1) % 3]}}, triangle, static_cast<int>(d), step,
+          reach, pairs);
+    }
+  }
+}
+
+void BodyCandidates::add(const FeaturePair& pair, int triangle, int corner, const BodyStep& step, double reach,
+                         std::vector<BodyPair>& pairs) const {
+  const auto& v = pair.vertices;
+  if (std::ranges::all_of(v, [&](int i) { return i >= cloth_count_ || pinned_[Index(i)] != 0; })) return;
+  const FourPoints from = gather(step.from, v), to = gather(step.to, v);
+  if (kept_apart(pair.feature, from, to, reach)) return;
+  const Nearest before = nearest(pair.feature, from);
+  // Near the start of the step, the line between the closest points is the best separating axis.
+  if (kept_apart(pair.feature, before.difference(from), from, to, reach)) return;
+  pairs.push_back({pair, triangle, corner, before});
 }
 
 }  // namespace drape

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "sim/cloth.hpp"
 #include "sim/collision/distance.hpp"
-#include "sim/collision/spatial_hash.hpp"
-#include "sim/parallel/part_lists.hpp"
+#include "sim/collision/monotone_sheet.hpp"
+#include "sim/collision/placed_mesh.hpp"
+#include "sim/collision/spatial_index.hpp"
+#include "sim/parallel/loops.hpp"
+#include "sim/parallel/threads.hpp"
 
 namespace drape {
 
@@ -76,6 +80,85 @@ class CollisionCandidates {
   std::vector<FeaturePair> kept_;  // pairs whose kept boxes overlap
   std::vector<Box> kept_boxes_;    // enlarged boxes of the vertices
   Point kept_middle_{0, 0, 0};     // mean position of the vertices when these boxes were made
+};
+
+/// Features of a cloth and a body that may meet. The body's feature is a triangle, its corner, or the edge from that
+/// corner.
+struct BodyPair {
+  FeaturePair pair;
+  int triangle, corner;
+  Nearest before;  ///< closest points at the start of the step
+};
+
+/// Straight motion in a step, in the body's coordinates: the cloth's vertices, followed by the body's.
+struct BodyStep {
+  const std::vector<Point>&from, &to;
+  const PlacedMesh &start, &end;
+};
+
+/// Search for the pairs of features of a cloth and a body that may come near each other in a step.
+///
+/// The cloth is searched in groups of triangles. Each group caches the body's triangles in a region around it, and a
+/// plane that has all of these on one side. While the group stays in the region and beyond the plane, none of its
+/// features comes near the body's. This test costs a few operations per vertex. Region and plane are updated when the
+/// group leaves its region. The cache may add or omit distant pairs; near pairs are always found, in the same order.
+class BodyCandidates {
+ public:
+  /// @param margin  distance that the cloth may move before a region is searched again, about [m]
+  /// @param threads shared by a search if the cloth is large
+  BodyCandidates(const MeshTopology& body, int body_vertices, const Cloth& cloth, double margin,
+                 const Threads& threads = one_thread());
+
+  /// Finds every pair that comes nearer than `reach` [m], and some more. Omits pairs whose cloth vertices are all
+  /// pinned.
+  void find(const BodyStep& step, double reach);
+  /// Repeats the search in the same step after some cloth vertices changed their targets; keeps the pairs of all
+  /// others.
+  void find_again(const BodyStep& step, double reach, const std::vector<char>& changed);
+
+  [[nodiscard]] const std::vector<BodyPair>& pairs() const { return pairs_; }
+
+ private:
+  /// Neighbouring triangles of the cloth, with their vertices.
+  struct Group {
+    std::span<const Patch> patches;
+    std::span<const int> vertices;
+    Box region;                        // body triangles that overlap it are in `near`; empty at first
+    double travel = 0;                 // of the body when `near` was found
+    std::vector<int> near = {};        // in ascending order
+    Point axis = Point::Zero();        // plane axis·x = level, above all triangles of `near`
+    double level = 0, of_travel = 0;   // travel of the body when the plane was set
+    std::size_t begin = 0, count = 0;  // range of its pairs
+  };
+  /// Pairs found in one part of the groups, with buffers for the search.
+  struct SearchResults {
+    std::vector<BodyPair> pairs;
+    std::vector<int> near = {};        // body triangles near a group in a step
+    std::vector<Box> near_boxes = {};  // boxes of these triangles
+  };
+  /// Collects the pairs that find(group, findings) adds for each group.
+  template <class Find>
+  void find_all(Find&& find);
+  void find_of(Group& group, const BodyStep& step, double reach, SearchResults& findings) const;
+  void look_around(Group& group, const Box& box, const BodyStep& step, double reach) const;
+  /// Sets the plane that best separates the group from its near triangles.
+  static void place_plane(Group& group, const BodyStep& step);
+  [[nodiscard]] static bool apart(const Group& group, const BodyStep& step, double reach);
+  void add_group(const Group& group, const BodyStep& step, double reach, SearchResults& findings) const;
+  void add_pairs(const Patch& patch, int triangle, const BodyStep& step, double reach,
+                 std::vector<BodyPair>& pairs) const;
+  void add(const FeaturePair& pair, int triangle, int corner, const BodyStep& step, double reach,
+           std::vector<BodyPair>& pairs) const;
+
+  const Threads& threads_;
+  int cloth_count_;
+  double margin_;
+  std::vector<char> pinned_;
+  std::vector<Patch> cloth_patches_, body_patches_;  // the cloth's are sorted by group
+  std::vector<int> vertices_;                        // of each group, without duplicates
+  std::vector<Group> groups_;
+  std::vector<BodyPair> pairs_, before_;
+  std::vector<SearchResults> findings_;  // per part
 };
 
 }  // namespace drape

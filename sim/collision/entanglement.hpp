@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/collision/intersection.hpp"
+#include "sim/collision/distance.hpp"
 
 namespace drape {
 

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "sim/body_shape.hpp"
 #include "sim/collision/distance.hpp"
-#include "sim/collision/triangle_tree.hpp"
+#include "sim/collision/spatial_index.hpp"
 #include "sim/mesh.hpp"
 
 namespace drape {
@@ -127,6 +129,109 @@ class PlacedMesh {
   std::vector<Box> boxes_;
   TriangleTree tree_;
   double travel_;
+};
+
+/// Velocities and inverse masses of vertices, as input and output of RigidZones.
+struct MovingVertices {
+  std::vector<Point> velocities;       ///< [m/s]
+  std::vector<double> inverse_masses;  ///< 0 for a pin [1/kg]
+
+  [[nodiscard]] Point velocity(int i) const { return velocities[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] double inverse_mass(int i) const { return inverse_masses[static_cast<std::size_t>(i)]; }
+};
+
+/// Groups of vertices that move as rigid bodies for one step, used when impulses cannot resolve a pile of collisions
+/// (Provot 1997; Bridson, Fedkiw and Anderson 2002, section 7.5; Harmon et al. 2008). A group keeps the linear and
+/// angular momentum of its vertices: v = v̄ + ω × (x − x̄). On the path x + t·v no two of its points approach each
+/// other, since I + t·[ω]× shortens no vector. So there is no collision inside a group.
+/// A group with a pin moves with the pin.
+class RigidZones {
+ public:
+  /// Begins a step with each vertex in a zone of its own.
+  /// @param velocities of the vertices, which define the zones' momenta
+  void begin(const std::vector<Point>& velocities);
+
+  /// Joins the zones of four vertices.
+  void join(const std::array<int, 4>& vertices);
+  /// Joins all zones of more than one vertex into one.
+  void join_all();
+  /// Returns true if four vertices are in one zone.
+  [[nodiscard]] bool together(const std::array<int, 4>& vertices) const;
+
+  /// Sets the velocities of all vertices in zones of more than one vertex.
+  /// @return false if a zone has pins with different velocities and so cannot be rigid
+  bool apply(const std::vector<Point>& x, MovingVertices& vertices);
+
+ private:
+  /// Sums over the vertices of a zone.
+  struct Body {
+    double mass = 0;
+    Point center = Point::Zero(), velocity = Point::Zero(), spin = Point::Zero();  // first sums, then means
+    Point angular_momentum = Point::Zero();
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+    int pins = 0;
+    bool uneven = false;  // true if its pins have different velocities
+  };
+
+  [[nodiscard]] int root(int vertex) const;
+  void sum_up(const std::vector<Point>& x, const MovingVertices& vertices);
+
+  std::vector<int> parents_;
+  std::vector<Point> velocities_;
+  std::vector<Body> bodies_;      // by root
+  std::vector<int> members_;      // vertices of zones of more than one
+  std::vector<char> zone_roots_;  // nonzero at roots of such zones
+};
+
+/// A body at one moment: its mesh in its own coordinates, and the pose of these.
+struct BodyAt {
+  std::shared_ptr<const PlacedMesh> mesh;
+  Pose pose;
+};
+
+/// A mesh with a rigid motion and a changing shape, as functions of time. Caches the shapes of the last few times, so
+/// one object serves one thread at a time.
+class MovingBody {
+ public:
+  MovingBody(std::shared_ptr<const MeshMotion> shape, RigidMotion motion);
+
+  /// Displacement of the body's points between two times.
+  class Way {
+   public:
+    Way(const MovingBody& body, double from, double to);
+    /// Returns the displacement of the point of a triangle with these weights [m].
+    [[nodiscard]] Eigen::Vector3d of(int triangle, const Point& weights) const;
+
+   private:
+    const MeshTopology& topology_;
+    BodyAt from_, to_;
+    bool still_;
+  };
+
+  [[nodiscard]] BodyAt at(double time) const { return {mesh_at(time), motion_.at(time)}; }
+  /// Returns true if the shape changes.
+  [[nodiscard]] bool deforms() const { return !shape_->samples.empty(); }
+  [[nodiscard]] const MeshTopology& topology() const { return *topology_; }
+
+  /// Returns the displacement of the body's origin from one time to another [s] [m].
+  [[nodiscard]] Eigen::Vector3d displacement(double from, double to) const;
+
+  /// Returns the vertices' positions in the world, n×3 [m].
+  [[nodiscard]] Vertices positions(double time) const;
+
+ private:
+  struct Shape {
+    double time;
+    std::shared_ptr<PlacedMesh> mesh;
+  };
+  [[nodiscard]] std::shared_ptr<const PlacedMesh> mesh_at(double time) const;
+
+  std::shared_ptr<const MeshMotion> shape_;
+  RigidMotion motion_;
+  std::shared_ptr<const MeshTopology> topology_;
+  mutable std::vector<Shape> shapes_;  // most recently used last
+  mutable Vertices scratch_, last_;    // last shape computed, and scratch
+  mutable double travel_ = 0;
 };
 
 }  // namespace drape

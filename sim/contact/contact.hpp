@@ -1,12 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <compare>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "sim/mesh.hpp"
+#include "sim/tracks.hpp"
 
 namespace drape {
 
@@ -94,5 +98,103 @@ class ContactSource {
   virtual void find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
                     std::vector<ContactConstraint>& contacts) = 0;
 };
+
+/// A fixed half-space for SurfaceContacts.
+struct PlaneObstacle {
+  struct Placed {
+    Eigen::Vector3d center = Eigen::Vector3d::Zero(), up = Eigen::Vector3d::UnitZ();
+
+    [[nodiscard]] double gap(const Eigen::Vector3d& place) const { return up.dot(place); }
+    [[nodiscard]] double margin() const { return 0; }
+    [[nodiscard]] bool crosses(const Eigen::Vector3d&, const Eigen::Vector3d&, double) const { return false; }
+    [[nodiscard]] Eigen::Vector3d surface_point(const Eigen::Vector3d&) const { return Eigen::Vector3d::Zero(); }
+    [[nodiscard]] Eigen::Vector3d normal_on_way(const Eigen::Vector3d&, const Eigen::Vector3d&, double) const {
+      return up;
+    }
+  };
+
+  Eigen::Vector3d up;  ///< outward unit normal
+  double height;       ///< of the surface above the origin, along `up` [m]
+
+  [[nodiscard]] Placed at(double) const { return {height * up, up}; }
+};
+
+/// A moving sphere for SurfaceContacts.
+struct BallObstacle {
+  struct Placed {
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    double radius = 0;
+
+    [[nodiscard]] double gap(const Eigen::Vector3d& place) const { return place.norm() - radius; }
+    [[nodiscard]] double margin() const { return 0.05 * radius; }
+    [[nodiscard]] Eigen::Vector3d surface_point(const Eigen::Vector3d& normal) const { return radius * normal; }
+
+    /// Returns true if a straight path between two outside positions cuts deeper than the sphere's rim.
+    [[nodiscard]] bool crosses(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double distance) const {
+      return nearest_on_way(from, to).norm() < rim * (radius + distance);
+    }
+    [[nodiscard]] Eigen::Vector3d normal_on_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                                double distance) const {
+      const double reach = radius + distance;
+      const Eigen::Vector3d nearest = nearest_on_way(from, to);
+      if (from.norm() < reach || nearest.norm() >= rim * reach) {
+        return to.isZero(0) ? Eigen::Vector3d(from.normalized()) : Eigen::Vector3d(to.normalized());
+      }
+      // Point of entry: |from + t·way| = reach.
+      const Eigen::Vector3d way = to - from;
+      const double a = way.squaredNorm(), b = from.dot(way), c = from.squaredNorm() - reach * reach;
+      const double t = (-b - std::sqrt(std::max(0.0, b * b - a * c))) / a;
+      return (from + t * way).normalized();
+    }
+
+   private:
+    static constexpr double rim = 0.9;  // a path that stays outside this fraction of the reach only crosses the rim
+
+    [[nodiscard]] static Eigen::Vector3d nearest_on_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+      const Eigen::Vector3d way = to - from;
+      const double squared = way.squaredNorm();
+      const double t = squared > 0 ? std::clamp(-from.dot(way) / squared, 0.0, 1.0) : 0.0;
+      return from + t * way;
+    }
+  };
+
+  std::shared_ptr<const SphereTrack> track;
+  double scale = 1;  ///< factor on the track's radius
+
+  [[nodiscard]] Placed at(double time) const {
+    const SphereShape shape = track->at(time);
+    return {shape.center, scale * shape.radius};
+  }
+};
+
+/// Motion of a cloth through a step without contact.
+struct FreeFlight {
+  Vertices start_v;                                   ///< velocities at the start of the step, n×3 [m/s]
+  Vertices mean;                                      ///< mean velocities over the step [m/s]
+  Vertices target;                                    ///< positions at the end of the step [m]
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²]
+  double h = 0;                                       ///< step length [s]
+};
+
+/// Rebound by Newton's law of restitution: features arrive at the speed s and leave at e·s, on parabolas under gravity.
+/// With the mean velocity w of a step, the velocity at the time t is w + (t − h/2)·g. A vertex in free flight rises to
+/// e² of its height for any step length. Springs add an error of the order of h.
+struct Bounce {
+  double gap = 0;     ///< gap at the end of the step in excess of the contact distance [m]
+  double leaves = 0;  ///< mean velocity after the rebound [m/s]
+  double turned = 0;  ///< excess of `leaves` over the mean velocity of this step [m/s]
+  double struck = 0;  ///< change of speed at impact, s + e·s [m/s]
+};
+
+/// Returns the bounce of a contact. All zero if the rebound is slower than the forces push the features back together
+/// within a step.
+Bounce bounce_of(const ContactConstraint& contact, const FreeFlight& flight);
+
+/// Returns the change of the velocity of d at the end of a step with a bounce [m/s]. It acts along the normal, plus
+/// Coulomb friction of at most µ·struck.
+/// @param slip   velocity of d relative to the obstacle at the end of the step [m/s]
+/// @param rubbed change across the normal that friction has already made [m/s]
+Eigen::Vector3d change_by(const Bounce& bounce, const ContactConstraint& contact, const Eigen::Vector3d& slip,
+                          const Eigen::Vector3d& rubbed);
 
 }  // namespace drape

@@ -2,9 +2,7 @@
 
 #include <vector>
 
-#include "sim/contact/bounce.hpp"
 #include "sim/contact/contact.hpp"
-#include "sim/contact/contact_preconditioner.hpp"
 #include "sim/contact/contact_problem.hpp"
 #include "sim/solvers/minimiser.hpp"
 

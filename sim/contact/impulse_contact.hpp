@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "sim/collision/rigid_zones.hpp"
-#include "sim/contact/bounce.hpp"
+#include "sim/collision/placed_mesh.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/system.hpp"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "sim/collision/impact.hpp"
+#include "sim/collision/distance.hpp"
 
 namespace drape {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "core/keys.hpp"
 #include "sim/bending/bending_energy.hpp"
-#include "sim/bending/hinges.hpp"
 
 namespace drape {
 

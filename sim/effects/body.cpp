@@ -7,8 +7,7 @@
 
 #include "core/keys.hpp"
 #include "sim/contact/mesh_contacts.hpp"
-#include "sim/effects/contact.hpp"
-#include "sim/effects/motion_keys.hpp"
+#include "sim/effects/effect_keys.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

@@ -13,9 +13,7 @@
 
 #include "sim/body_shape.hpp"
 #include "sim/effects/effect.hpp"
-#include "sim/keyframes.hpp"
-#include "sim/mesh_motion.hpp"
-#include "sim/sphere_track.hpp"
+#include "sim/tracks.hpp"
 
 namespace drape {
 

@@ -1,7 +1,6 @@
 #include "sim/effects/field.hpp"
 
 #include <fmt/format.h>
-
 #include <limits>
 #include <utility>
 

@@ -1,8 +1,8 @@
 #include "sim/effects/ground.hpp"
 
-#include "sim/contact/obstacles.hpp"
-#include "sim/contact/surface_contacts.hpp"
-#include "sim/effects/contact.hpp"
+#include "sim/contact/contact.hpp"
+#include "sim/contact/mesh_contacts.hpp"
+#include "sim/effects/effect_keys.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

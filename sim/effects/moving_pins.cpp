@@ -1,11 +1,10 @@
 #include "sim/effects/moving_pins.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "core/keys.hpp"
 #include "sim/mesh_anchors.hpp"

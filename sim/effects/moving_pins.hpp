@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include "sim/body_shape.hpp"
 #include "sim/effects/effect.hpp"
-#include "sim/keyframes.hpp"
-#include "sim/mesh_motion.hpp"
+#include "sim/tracks.hpp"
 
 namespace drape {
 

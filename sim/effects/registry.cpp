@@ -1,21 +1,17 @@
 #include <algorithm>
 
-#include "sim/effects/effect.hpp"
-#include "sim/effects/gravity.hpp"
-
-#ifndef DRAPE_ONLY_GRAVITY
-#include "sim/effects/air.hpp"
 #include "sim/effects/bending.hpp"
 #include "sim/effects/body.hpp"
 #include "sim/effects/damping.hpp"
+#include "sim/effects/effect.hpp"
 #include "sim/effects/field.hpp"
+#include "sim/effects/gravity.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/moving_pins.hpp"
 #include "sim/effects/self_collision.hpp"
 #include "sim/effects/sphere.hpp"
 #include "sim/effects/strain_limit.hpp"
 #include "sim/effects/wind.hpp"
-#endif
 
 namespace drape {
 namespace {
@@ -38,7 +34,6 @@ std::span<const EffectType> effect_types() {
   static constexpr EffectType types[] = {
       // clang-format off
       row<Gravity>(),
-#ifndef DRAPE_ONLY_GRAVITY
       row<Wind>(),
       row<Field>(),
       row<Air>(),
@@ -50,7 +45,6 @@ std::span<const EffectType> effect_types() {
       row<Body>(),
       row<SelfCollision>(),
       row<Damping>(),
-#endif
       // clang-format on
   };
   return types;

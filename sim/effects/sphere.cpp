@@ -1,14 +1,12 @@
 #include "sim/effects/sphere.hpp"
 
 #include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 
-#include "sim/contact/obstacles.hpp"
-#include "sim/contact/surface_contacts.hpp"
-#include "sim/effects/contact.hpp"
-#include "sim/effects/motion_keys.hpp"
+#include "sim/contact/contact.hpp"
+#include "sim/contact/mesh_contacts.hpp"
+#include "sim/effects/effect_keys.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/settings.hpp"
 #include "sim/system.hpp"

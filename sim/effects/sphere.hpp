@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "sim/effects/effect.hpp"
-#include "sim/keyframes.hpp"
-#include "sim/sphere_track.hpp"
+#include "sim/tracks.hpp"
 
 namespace drape {
 

@@ -2,7 +2,6 @@
 
 // Spring laws, and loops over springs in any order. Only for inclusion by kernels_isa.cpp, see there.
 
-#include "sim/concavity.hpp"
 #include "sim/kernels/isa_simd.hpp"
 #include "sim/kernels/kernels.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "sim/instruction_set.hpp"
+#include "sim/settings.hpp"
 
 namespace drape {
 

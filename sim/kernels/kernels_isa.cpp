@@ -5,10 +5,10 @@
 
 #include "sim/kernels/isa_bands.hpp"
 #include "sim/kernels/isa_packing.hpp"
+#include "sim/kernels/isa_simd.hpp"
 #include "sim/kernels/isa_springs.hpp"
 #include "sim/kernels/isa_strips.hpp"
 #include "sim/kernels/isa_triangle.hpp"
-#include "sim/kernels/isa_vectors.hpp"
 #include "sim/kernels/kernels.hpp"
 
 namespace drape {

@@ -6,10 +6,9 @@
 
 #include "core/error.hpp"
 #include "sim/kernels/vertices.hpp"
-#include "sim/linear/dissection.hpp"
-#include "sim/linear/free_vertices.hpp"
 #include "sim/linear/multifrontal_cholesky.hpp"
-#include "sim/linear/substitution.hpp"
+#include "sim/linear/solve_tree.hpp"
+#include "sim/linear/sparse_cholesky.hpp"
 #include "sim/parallel/loops.hpp"
 
 namespace drape {

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "sim/kernels/kernels.hpp"
-#include "sim/linear/free_vertices.hpp"
 #include "sim/linear/solve_tree.hpp"
 #include "sim/linear/sparse_cholesky.hpp"
 #include "sim/system.hpp"

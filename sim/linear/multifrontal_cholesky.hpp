@@ -6,10 +6,41 @@
 #include <vector>
 
 #include "sim/kernels/kernels.hpp"
-#include "sim/linear/dense_front.hpp"
-#include "sim/linear/supernodes.hpp"
+#include "sim/linear/solve_tree.hpp"
+#include "sim/linear/sparse_cholesky.hpp"
+#include "sim/mesh.hpp"
 
 namespace drape {
+
+/// Orders the rows of a matrix by nested dissection (George 1973): halves the cloth across its longer side, numbers the
+/// separating vertices last, and recurses into both halves. On a grid of n vertices the factor then has O(n log n)
+/// entries and takes O(n^1.5) operations, which is optimal (Lipton, Rose and Tarjan 1979).
+/// @param pattern of the matrix
+/// @param places  positions of the rows, n×3 [m]. Coupled rows should be near each other; otherwise the order is valid
+///                but
+///                has more fill
+/// @returns the rows in order, the same for the same arguments
+std::vector<int> dissect(const LowerPattern& pattern, const Vertices& places);
+
+/// Structure of a Cholesky factor: neighbouring columns that share the rows below form a supernode. Narrow ones are
+/// merged with the next if that stores few zeros.
+struct Supernodes {
+  std::vector<int> order;           ///< row r of L is row order[r] of A
+  std::vector<int> first;           ///< first column of each supernode, then n
+  std::vector<std::size_t> starts;  ///< start of each supernode's rows, then their number
+  std::vector<int> rows;            ///< rows below each supernode, ascending
+  double operations = 0;            ///< multiplications and additions for L without the stored zeros
+
+  [[nodiscard]] int count() const { return static_cast<int>(first.size()) - 1; }
+  [[nodiscard]] int width(int s) const { return first[std::size_t(s) + 1] - first[std::size_t(s)]; }
+  [[nodiscard]] int below(int s) const { return static_cast<int>(starts[std::size_t(s) + 1] - starts[std::size_t(s)]); }
+};
+
+/// Returns the supernodes of a matrix's factor, by CHOLMOD's analysis, in postorder of the elimination tree: children
+/// before their parent and one after another.
+/// @param order of the rows; CHOLMOD renumbers it along the tree. Empty: CHOLMOD chooses one
+/// @throws UsageError if the factor has more than 2³¹ entries
+Supernodes find_supernodes(const LowerPattern& pattern, const std::vector<int>& order);
 
 /// The Cholesky factorisation A = Pᵀ L Lᵀ P of a sparse symmetric positive-definite matrix by dense fronts (Duff and
 /// Reid 1983; Liu 1992), with the same bits on every machine. The sparsity is analysed once; the values may change.

@@ -11,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "sim/parallel/busy_backoff.hpp"
-
 namespace drape {
 namespace {
 

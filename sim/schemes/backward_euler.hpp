@@ -1,13 +1,126 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "sim/contact/contact_solver.hpp"
+#include "sim/parallel/vectors.hpp"
 #include "sim/schemes/energy_books.hpp"
-#include "sim/schemes/minimising_scheme.hpp"
+#include "sim/schemes/field_solve.hpp"
+#include "sim/schemes/scheme.hpp"
+#include "sim/solvers/minimiser.hpp"
 
 namespace drape {
+
+/// Base of schemes that minimise a StepObjective once or more per step. Holds the solver and the result of the last
+/// minimisation, which ends the step.
+class MinimisingScheme : public Scheme {
+ public:
+  using MakeSolver = std::function<std::unique_ptr<Minimiser>(const StepObjective& objective)>;
+
+  void expect(const Vertices& early, const Vertices& late) override { expected_ = {&early, &late}; }
+  [[nodiscard]] double residual() override { return norm(system_.threads, point_.gradient); }
+  [[nodiscard]] double error() override { return solver_->error(point_); }
+  [[nodiscard]] double residual_force() override { return point_.gradient.rowwise().norm().sum(); }
+  [[nodiscard]] std::optional<Accuracy> accuracy() const override { return solver_->accuracy(); }
+
+ protected:
+  /// @param duration time covered by one minimisation [s]
+  MinimisingScheme(const System& system, double duration, const MakeSolver& make_solver)
+      : system_(system),
+        objective_(system, duration),
+        solver_(make_solver(objective_)),
+        point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
+        free_(is_free(system)),
+        other_(point_) {
+    if (system.drag != nullptr) fields_.emplace(system, objective_);
+  }
+
+  /// Begins the objective from a state under forces, n×3 [N], and minimises it. Repeats this until velocity fields are
+  /// consistent with the minimum.
+  /// @param expected see choose_point()
+  /// @param begun    called each time the objective has begun
+  /// @param minimise minimises from the point
+  template <class Begun, class Minimise>
+  StepReport solve_with_fields(const State& from, const Vertices& force, double end, const Vertices* expected,
+                               const Begun& begun, const Minimise& minimise) {
+    const auto start = [&](const Vertices& all) {
+      objective_.begin(from.x, from.v, all, end);
+      begun();
+    };
+    if (!fields_) {
+      start(force);
+      begin_point(from, expected);
+      return minimise();
+    }
+    fields_->begin(from, end);
+    start(fields_->force_with(force));
+    begin_point(from, expected);
+    StepReport report = minimise();
+    while (fields_->improve(point_.x, *solver_)) {
+      start(fields_->force_with(force));
+      point_.value = objective_.evaluate(point_.x, point_.gradient);
+      const StepReport again = minimise();
+      report.iterations += again.iterations;
+      report.converged = again.converged;
+      report.rise = std::max(report.rise, again.rise);
+    }
+    report.converged = report.converged && fields_->converged();
+    return report;
+  }
+
+  struct Expected {
+    const Vertices *early = nullptr, *late = nullptr;
+  };
+  /// Returns the expected accelerations and clears them, so that they serve this step only.
+  Expected take_expected() { return std::exchange(expected_, {}); }
+
+  /// Begins a step's minimisations at choose_point().
+  void begin_point(const State& from, const Vertices* expected) {
+    choose_point(from, expected);
+    solver_->begin_step(point_);
+  }
+
+  const System& system_;
+  StepObjective objective_;
+  std::unique_ptr<Minimiser> solver_;
+  Iterate point_;
+  bool free_;                         // see is_free()
+  std::optional<FieldSolve> fields_;  // if there are velocity fields
+
+ private:
+  /// Sets the initial guess of a minimisation from a state. It follows the expected acceleration, or else starts at the
+  /// objective's y with the restraint's acceleration added. With the error rule it uses the end of the step under
+  /// constant initial forces if g is lower there, which is exact at rest.
+  void choose_point(const State& from, const Vertices* expected) {
+    const double t = objective_.duration();
+    const Vertices& held_back = from.restraint.acceleration;
+    const bool held = expected == nullptr && held_back.rows() == from.x.rows();
+    if (expected != nullptr || held) {
+      if (held) {
+        point_.x = objective_.y() + t * t * held_back;
+      } else {
+        point_.x = from.x + t * from.v + t * t * *expected;
+      }
+      for (const int pin : system_.cloth.pins) point_.x.row(pin) = objective_.y().row(pin);
+      point_.value = objective_.evaluate(point_.x, point_.gradient);
+      if (std::isfinite(point_.value)) return;
+    }
+    copy(system_.threads, objective_.y(), point_.x);
+    point_.value = objective_.evaluate(point_.x, point_.gradient);
+    if (solver_->accuracy().rule != StoppingRule::error) return;
+    objective_.predict_with_start_forces(other_.x, other_.gradient);
+    other_.value = objective_.evaluate(other_.x, other_.gradient);
+    if (other_.value < point_.value) std::swap(point_, other_);
+  }
+
+  Expected expected_;
+  Iterate other_;  // alternative initial guess
+};
 
 /// Backward (implicit) Euler as a minimisation: x' = argmin g, v' = (x' − x)/h, then the corrections. It gains no
 /// energy beyond the tolerance of EnergyBooks.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/make_system.hpp"
-#include "sim/schemes/substep_guard.hpp"
+#include "sim/schemes/stability_guard.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
 namespace {

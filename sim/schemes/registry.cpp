@@ -4,15 +4,10 @@
 #include <utility>
 
 #include "sim/schemes/backward_euler.hpp"
-#include "sim/schemes/condition_guard.hpp"
-#include "sim/schemes/divided_step.hpp"
-#include "sim/schemes/safe_step_guard.hpp"
+#include "sim/schemes/explicit_schemes.hpp"
 #include "sim/schemes/sdirk2.hpp"
-#include "sim/schemes/sdirk2_guard.hpp"
-#include "sim/schemes/semi_implicit_euler.hpp"
-#include "sim/schemes/substep_guard.hpp"
+#include "sim/schemes/stability_guard.hpp"
 #include "sim/schemes/substeps.hpp"
-#include "sim/schemes/verlet.hpp"
 #include "sim/solvers/local_global.hpp"
 #include "sim/solvers/newton.hpp"
 #include "sim/solvers/quasi_newton.hpp"

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "sim/solvers/accuracy.hpp"
-#include "sim/step_forces.hpp"
-#include "sim/step_report.hpp"
+#include "sim/state.hpp"
+#include "sim/step_objective.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

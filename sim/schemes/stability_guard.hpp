@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
-#include "sim/blow_up.hpp"
+#include "sim/stability.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -42,6 +45,66 @@ class StabilityGuard {
 
   /// Returns the advice for a motion that blew up, as the end of a message.
   [[nodiscard]] virtual std::string remedy() const = 0;
+};
+
+/// Guard for schemes that are stable up to safe_step() and may gain energy beyond it.
+class SafeStepGuard final : public StabilityGuard {
+ public:
+  /// Computes the safe step, which takes a while for a large cloth.
+  /// @param scheme name of the scheme in messages
+  SafeStepGuard(std::string_view scheme, const System& system);
+
+  [[nodiscard]] std::optional<std::string> problem() const override;
+  [[nodiscard]] double longest_step() const override { return safe_step_; }
+  void begin(const State& state, const EnergyNow& energy) override;
+  std::optional<double> look(const State& state, const Vertices& push, bool constant, const EnergyNow& energy) override;
+  [[nodiscard]] std::optional<BlowUpWatch::EnergyHistory> books() const override;
+  void go_on(const BlowUpWatch::EnergyHistory& books) override;
+  [[nodiscard]] std::string remedy() const override;
+
+ private:
+  std::string_view scheme_;
+  double step_, safe_step_;           // [s]
+  std::optional<BlowUpWatch> watch_;  // if energy is meaningful for this motion
+};
+
+/// Guard for implicit schemes. These are stable while double precision resolves a vertex's inertia beside the stiffness
+/// acting on it, see condition_bound().
+class ConditionGuard final : public StabilityGuard {
+ public:
+  explicit ConditionGuard(const System& system);
+
+  [[nodiscard]] std::optional<std::string> problem() const override;
+  /// Returns the longest step, which also respects the limit of pushes evaluated once per step [s].
+  [[nodiscard]] double longest_step() const override;
+  [[nodiscard]] std::string remedy() const override { return "; take a shorter [time] step, or weaker forces"; }
+
+ private:
+  double step_;  // [s]
+  double condition_;
+  double longest_pushed_;  // [s]
+};
+
+/// Guard for steps divided into substeps, see SubstepScheme; another guard gives the longest substep. No blow-up watch
+/// is needed, as two unstable motions with different substeps would disagree.
+class SubstepGuard final : public StabilityGuard {
+ public:
+  /// Limit above which a motion is rejected.
+  static constexpr double most_substeps = 1 << 20;
+
+  /// @param guard of the scheme @param step to divide [s]
+  SubstepGuard(std::unique_ptr<StabilityGuard> guard, double step);
+
+  /// Returns the number of substeps no longer than `longest` [s] that divide a step, capped at the limit.
+  static std::int64_t fewest_substeps(double step, double longest);
+
+  [[nodiscard]] std::optional<std::string> problem() const override;
+  [[nodiscard]] double longest_step() const override { return guard_->longest_step(); }
+  [[nodiscard]] std::string remedy() const override { return "; take a shorter [time] step, or weaker forces"; }
+
+ private:
+  std::unique_ptr<StabilityGuard> guard_;
+  double step_;  // [s]
 };
 
 }  // namespace drape

@@ -241,4 +241,19 @@ double SubstepScheme::error() { return attempts_.front()->scheme().error(); }
 double SubstepScheme::residual_force() { return attempts_.front()->scheme().residual_force(); }
 std::optional<Accuracy> SubstepScheme::accuracy() const { return attempts_.front()->scheme().accuracy(); }
 
+StepReport DividedStep::advance(State& state, StepForces& forces) {
+  StepReport report;
+  const std::int64_t step = state.step;
+  for (std::int64_t k = 0; k < system_.substeps; ++k) {
+    system_.stop.look();
+    state.step = step * system_.substeps + k;
+    const StepReport substep = scheme_->advance(state, forces);
+    report.converged = report.converged && substep.converged;
+    for (const auto& filter : system_.filters) report.converged = report.converged && filter->converged();
+  }
+  state.step = step;
+  report.substeps = system_.substeps;
+  return report;
+}
+
 }  // namespace drape

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "sim/schemes/scheme.hpp"
 #include "sim/settings.hpp"
@@ -77,6 +78,20 @@ class SubstepScheme final : public Scheme {
   // Numbers of substeps of the shorter motion: limits, and for the first trial.
   std::int64_t fewest_, most_ = 0, first_ = 0;
   std::deque<std::unique_ptr<Attempt>> attempts_;  // most recently used first
+};
+
+/// An explicit scheme that divides each step into equal substeps: System::substeps of System::step seconds. A substep
+/// is a step in every respect except that State::step counts it differently.
+class DividedStep final : public Scheme {
+ public:
+  /// @param scheme for the same system
+  DividedStep(const System& system, std::unique_ptr<Scheme> scheme) : system_(system), scheme_(std::move(scheme)) {}
+
+  StepReport advance(State& state, StepForces& forces) override;
+
+ private:
+  const System& system_;
+  std::unique_ptr<Scheme> scheme_;
 };
 
 }  // namespace drape

@@ -6,8 +6,8 @@
 
 #include "sim/linear/constant_factor.hpp"
 #include "sim/solvers/accuracy.hpp"
+#include "sim/state.hpp"
 #include "sim/step_objective.hpp"
-#include "sim/step_report.hpp"
 
 namespace drape {
 

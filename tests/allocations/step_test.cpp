@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cstdlib>
 
-#include "sim/effects/air.hpp"
 #include "sim/effects/bending.hpp"
 #include "sim/effects/body.hpp"
 #include "sim/effects/field.hpp"
@@ -16,8 +15,8 @@
 #include "sim/effects/self_collision.hpp"
 #include "sim/effects/strain_limit.hpp"
 #include "sim/effects/wind.hpp"
-#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
+#include "sim/system.hpp"
 #include "tests/support/setups.hpp"
 
 // The C library's functions under the names that everyone calls, including Eigen and CHOLMOD. A sanitizer replaces

@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "audit/energy_rise.hpp"
-#include "audit/stretch.hpp"
+#include "audit/motion_audit.hpp"
 
 namespace drape::audit {
 namespace {

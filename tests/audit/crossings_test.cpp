@@ -7,7 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "audit/inside.hpp"
 #include "tests/audit/motions.hpp"
 #include "tests/support/intersections.hpp"
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "audit/meeting.hpp"
+#include "audit/passages.hpp"
 #include "tests/audit/exact_roots.hpp"
 #include "tests/support/random.hpp"
 

@@ -1,6 +1,6 @@
 // Meetings of two features in a step: known cases, exact borders, and random motions compared with sampled roots.
 
-#include "audit/meeting.hpp"
+#include "audit/passages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "audit/surface.hpp"
+#include "audit/crossings.hpp"
 #include "tests/support/random.hpp"
 
 namespace drape::audit {

@@ -1,6 +1,6 @@
 // Signs compared with 128-bit integers, for volumes that are zero or minimal.
 
-#include "audit/orientation.hpp"
+#include "audit/predicates.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "audit/expansion.hpp"
 #include "tests/audit/exact_roots.hpp"
 #include "tests/support/random.hpp"
 

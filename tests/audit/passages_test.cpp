@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "audit/crossings.hpp"
-#include "audit/meeting.hpp"
 #include "tests/audit/motions.hpp"
 #include "tests/support/intersections.hpp"
 

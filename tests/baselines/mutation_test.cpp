@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "check/check_scene.hpp"
-#include "check/golden_folder.hpp"
+#include "check/golden.hpp"
 #include "scene/scene.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -10,7 +10,6 @@
 
 #include "check/compare_motion.hpp"
 #include "check/golden.hpp"
-#include "check/golden_mismatch.hpp"
 #include "core/keys.hpp"
 #include "scene/scene.hpp"
 #include "sim/effects/effect.hpp"

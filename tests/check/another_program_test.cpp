@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "check/golden.hpp"
-#include "check/golden_folder.hpp"
 #include "tests/check/checked_scene.hpp"
 
 namespace drape {

@@ -5,10 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "check/ci_reports.hpp"
 #include "check/html_report.hpp"
-#include "check/json_report.hpp"
-#include "check/junit_report.hpp"
-#include "cli/exit_code.hpp"
+#include "cli/environment.hpp"
 #include "core/text.hpp"
 #include "tests/check/checked_scene.hpp"
 

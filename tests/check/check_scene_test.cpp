@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "check/golden_motion.hpp"
 #include "check/manifest.hpp"
-#include "check/record_motion.hpp"
 #include "check/step_time.hpp"
 #include "output/png_encoder.hpp"
 #include "tests/check/checked_scene.hpp"

@@ -1,4 +1,4 @@
-#include "check/choose_frames.hpp"
+#include "check/draw_frames.hpp"
 
 #include <gtest/gtest.h>
 

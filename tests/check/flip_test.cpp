@@ -1,4 +1,4 @@
-#include "check/flip.hpp"
+#include "render/flip.hpp"
 
 #include <gtest/gtest.h>
 

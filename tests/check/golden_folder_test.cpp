@@ -1,6 +1,6 @@
 // Files that a golden may replace, and files that it must not.
 
-#include "check/golden_folder.hpp"
+#include "check/golden.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -6,7 +6,6 @@
 
 #include <fstream>
 
-#include "check/golden_folder.hpp"
 #include "output/png_encoder.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/sample_golden.hpp"

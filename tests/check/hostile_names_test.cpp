@@ -5,10 +5,8 @@
 
 #include <algorithm>
 
-#include "check/github.hpp"
+#include "check/ci_reports.hpp"
 #include "check/html_report.hpp"
-#include "check/json_report.hpp"
-#include "check/junit_report.hpp"
 #include "core/text.hpp"
 #include "tests/support/hostile_names.hpp"
 

@@ -1,4 +1,4 @@
-#include "check/motion_file.hpp"
+#include "check/golden_motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "check/golden_folder.hpp"
+#include "check/golden.hpp"
 #include "check/manifest.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "sim/instruction_set.hpp"
+#include "sim/settings.hpp"
 #include "tests/cli/run_drape.hpp"
 
 namespace drape::test {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/shell.hpp"
+#include "core/console.hpp"
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/hostile_names.hpp"

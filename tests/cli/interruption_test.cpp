@@ -1,6 +1,6 @@
 // Signals arrive at once, without polling.
 
-#include "cli/interruption.hpp"
+#include "cli/terminal.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -17,7 +17,7 @@
 #include <string>
 #include <thread>
 
-#include "cli/step_by_step.hpp"
+#include "cli/summary.hpp"
 #include "sim/mesh.hpp"
 #include "sim/simulation.hpp"
 

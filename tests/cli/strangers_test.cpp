@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "check/archive.hpp"
+#include "check/manifest.hpp"
 #include "core/sealed_json.hpp"
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"

@@ -5,7 +5,7 @@
 #include <map>
 #include <sstream>
 
-#include "core/wrap.hpp"
+#include "core/text.hpp"
 #include "tests/cli/run_drape.hpp"
 #include "tests/cli/without_opengl.hpp"
 #include "tests/support/files.hpp"

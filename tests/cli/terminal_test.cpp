@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "core/wrap.hpp"
+#include "core/text.hpp"
 #include "tests/cli/run_drape.hpp"
 
 namespace drape::cli {

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "compare/panels.hpp"
-#include "overlay/color_map.hpp"
+#include "render/overlay/color_scale.hpp"
 #include "run/run_scene.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/read_picture.hpp"

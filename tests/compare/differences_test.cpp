@@ -1,4 +1,4 @@
-#include "compare/differences.hpp"
+#include "compare/compare_scenes.hpp"
 
 #include <gtest/gtest.h>
 

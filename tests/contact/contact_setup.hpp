@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
+#include "sim/cloth.hpp"
 #include "sim/effects/bending.hpp"
 #include "sim/effects/body.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/self_collision.hpp"
 #include "sim/effects/sphere.hpp"
-#include "sim/fabrics.hpp"
-#include "sim/make_system.hpp"
-#include "sim/schemes/substep_guard.hpp"
+#include "sim/schemes/stability_guard.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "sim/contact/surface_contacts.hpp"
+#include "sim/contact/mesh_contacts.hpp"
 #include "sim/start_overlap.hpp"
 #include "tests/contact/contact_setup.hpp"
 

@@ -4,13 +4,13 @@
 
 #include <vector>
 
-#include "sim/effects/air.hpp"
 #include "sim/effects/bending.hpp"
 #include "sim/effects/body.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/moving_pins.hpp"
 #include "sim/effects/self_collision.hpp"
 #include "sim/effects/strain_limit.hpp"
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"

@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "sim/effects/air.hpp"
+#include "sim/effects/wind.hpp"
 #include "sim/linear/constant_factor.hpp"
-#include "sim/make_system.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/simulation.hpp"
 #include "sim/spring_network.hpp"
-#include "sim/step_forces.hpp"
+#include "sim/step_objective.hpp"
+#include "sim/system.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
 

@@ -1,10 +1,10 @@
-#include "output/contact_sheet.hpp"
+#include "output/png_encoder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "output/make_sink.hpp"
+#include "output/registry.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace drape::contact_sheet {

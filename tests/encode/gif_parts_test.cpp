@@ -8,10 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "output/gif/color_cut.hpp"
-#include "output/gif/color_histogram.hpp"
-#include "output/gif/frame_difference.hpp"
-#include "output/gif/ordered_dither.hpp"
+#include "output/gif/compactor.hpp"
+#include "output/gif/dither.hpp"
 #include "output/gif/palette.hpp"
 #include "tests/support/synthetic_film.hpp"
 

@@ -4,10 +4,8 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "output/make_sink.hpp"
-#include "output/path_template.hpp"
 #include "output/registry.hpp"
-#include "output/try_format.hpp"
+#include "output/sink.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"
 

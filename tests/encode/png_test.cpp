@@ -8,8 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "codecs/codecs.hpp"
-#include "codecs/png.hpp"
+#include "output/codecs/codecs.hpp"
+#include "output/codecs/png.hpp"
 #include "tests/support/random.hpp"
 
 namespace drape {

@@ -7,9 +7,9 @@
 #include <string>
 #include <thread>
 
-#include "codecs/codecs.hpp"
-#include "codecs/png.hpp"
 #include "core/console.hpp"
+#include "output/codecs/codecs.hpp"
+#include "output/codecs/png.hpp"
 
 namespace drape {
 namespace {

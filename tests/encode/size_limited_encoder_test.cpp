@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "output/scaled_image.hpp"
+#include "output/png_encoder.hpp"
 #include "tests/support/decoded_film.hpp"
 #include "tests/support/encoder.hpp"
 #include "tests/support/files.hpp"

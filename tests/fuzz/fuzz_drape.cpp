@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "motion/block_writer.hpp"
-#include "motion/packing.hpp"
+#include "motion/blocks.hpp"
 #include "motion/reader.hpp"
 #include "tests/fuzz/accepts_or_refuses.hpp"
 #include "tests/fuzz/sealed_motion.hpp"

@@ -3,12 +3,10 @@
 #include <fstream>
 #include <string>
 
-#include "core/temporary_folder.hpp"
-#include "import/mesh_sequence.hpp"
-#include "import/ply.hpp"
-#include "import/sources.hpp"
-#include "import/vtk_legacy.hpp"
-#include "import/vtk_xml.hpp"
+#include "core/files.hpp"
+#include "motion/import/import_motion.hpp"
+#include "motion/import/mesh_sequence.hpp"
+#include "motion/import/vtk.hpp"
 #include "tests/fuzz/accepts_or_refuses.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "check/motion_file.hpp"
+#include "check/golden_motion.hpp"
 #include "tests/fuzz/accepts_or_refuses.hpp"
 #include "tests/support/motion_bytes.hpp"
 

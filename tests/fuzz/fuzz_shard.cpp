@@ -1,10 +1,9 @@
 // check.cbor of a check's shard with a valid checksum, and the reports made of it.
 
-#include "check/archive.hpp"
+#include "check/ci_reports.hpp"
 #include "check/html_report.hpp"
-#include "check/json_report.hpp"
-#include "check/junit_report.hpp"
-#include "core/names_in_folders.hpp"
+#include "check/manifest.hpp"
+#include "core/installation.hpp"
 #include "tests/fuzz/accepts_or_refuses.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

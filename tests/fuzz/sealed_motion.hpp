@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "motion/checkpoint.hpp"
+#include "motion/reader.hpp"
 #include "motion/writer.hpp"
 #include "tests/support/opened_blocks.hpp"
 

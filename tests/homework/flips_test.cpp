@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "sim/flipped_pairs.hpp"
+#include "sim/mesh.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 

@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "check/archive.hpp"
+#include "check/ci_reports.hpp"
 #include "check/html_report.hpp"
-#include "check/json_report.hpp"
-#include "check/junit_report.hpp"
+#include "check/manifest.hpp"
 #include "tests/html/sample_check.hpp"
 
 namespace drape {

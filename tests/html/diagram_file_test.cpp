@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "figures/diagram_files.hpp"
-#include "html/chart.hpp"
-#include "html/page.hpp"
-#include "study/method_series.hpp"
+#include "reports/chart.hpp"
+#include "reports/diagram_files.hpp"
+#include "reports/page.hpp"
 #include "study/stability_map.hpp"
 #include "tests/html/html_page.hpp"
 

@@ -1,4 +1,4 @@
-#include "html/markup.hpp"
+#include "reports/page.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "html/chart.hpp"
-#include "html/chart_axis.hpp"
-#include "html/components.hpp"
+#include "reports/chart.hpp"
+#include "reports/components.hpp"
 #include "tests/support/files.hpp"
 
 namespace drape::html {

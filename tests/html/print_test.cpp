@@ -2,13 +2,12 @@
 
 #include <cmath>
 
-#include "html/chart.hpp"
-#include "html/comparison.hpp"
-#include "html/components.hpp"
-#include "html/film.hpp"
-#include "html/latex.hpp"
-#include "html/page.hpp"
 #include "output/png_encoder.hpp"
+#include "reports/chart.hpp"
+#include "reports/components.hpp"
+#include "reports/latex.hpp"
+#include "reports/page.hpp"
+#include "reports/players.hpp"
 #include "tests/html/html_page.hpp"
 
 // Pages on paper, in a narrow window, and in the clipboard.

@@ -7,9 +7,8 @@
 #include <stop_token>
 #include <thread>
 
+#include "cli/watch/session.hpp"
 #include "tests/html/html_page.hpp"
-#include "watch/server.hpp"
-#include "watch/session.hpp"
 
 // A page that shows a scene while it is edited: a colour changes, a mistake is made and corrected.
 

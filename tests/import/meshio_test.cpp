@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "import/import_motion.hpp"
+#include "motion/import/import_motion.hpp"
 #include "motion/reader.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"

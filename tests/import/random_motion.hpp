@@ -4,10 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "output/mesh_writers.hpp"
 #include "output/npz_writer.hpp"
-#include "output/obj_writer.hpp"
-#include "output/pc2_writer.hpp"
-#include "output/ply_writer.hpp"
 #include "output/usd_writer.hpp"
 #include "output/vtk_writer.hpp"
 #include "tests/support/random.hpp"

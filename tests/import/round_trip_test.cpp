@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "import/import_motion.hpp"
+#include "motion/import/import_motion.hpp"
 #include "motion/reader.hpp"
-#include "motion/scene_folder.hpp"
-#include "scene/mesh_file.hpp"
-#include "sim/make_system.hpp"
+#include "scene/mesh_value.hpp"
+#include "sim/system.hpp"
 #include "tests/import/random_motion.hpp"
 
 namespace drape::test {

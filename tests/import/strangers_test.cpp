@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "import/import_motion.hpp"
+#include "motion/import/import_motion.hpp"
 #include "motion/reader.hpp"
-#include "output/bytes.hpp"
 #include "output/npz_writer.hpp"
-#include "output/zip_writer.hpp"
+#include "output/vtk_writer.hpp"
 #include "tests/import/random_motion.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/usage_error.hpp"

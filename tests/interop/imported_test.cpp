@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "audit/report/audit_motion.hpp"
-#include "import/import_motion.hpp"
-#include "motion/scene_folder.hpp"
+#include "motion/import/import_motion.hpp"
+#include "motion/reader.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace drape::interop {

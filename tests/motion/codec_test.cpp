@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "motion/packing.hpp"
+#include "motion/blocks.hpp"
 #include "motion/state_codec.hpp"
 #include "tests/support/setups.hpp"
 

@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "run/motion_frames.hpp"
-#include "run/motion_space.hpp"
+#include "run/frame_player.hpp"
 #include "run/outputs.hpp"
-#include "run/run_steps.hpp"
+#include "run/run_scene.hpp"
 #include "tests/motion/recorded.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/setups.hpp"

@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "run/run_steps.hpp"
+#include "run/run_scene.hpp"
 #include "tests/motion/recorded.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/setups.hpp"

@@ -5,7 +5,7 @@
 #include <stop_token>
 #include <string>
 
-#include "motion/scene_folder.hpp"
+#include "motion/reader.hpp"
 #include "run/run_scene.hpp"
 #include "tests/support/scene_folder.hpp"
 

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "overlay/color_bar.hpp"
-#include "overlay/color_map.hpp"
-#include "overlay/curve_band.hpp"
+#include "render/overlay/color_scale.hpp"
+#include "render/overlay/diagrams.hpp"
 
 namespace drape::overlay_bands {
 namespace {

@@ -8,10 +8,9 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "overlay/caption.hpp"
-#include "overlay/pen.hpp"
-#include "overlay/text_template.hpp"
-#include "render/color.hpp"
+#include "render/image.hpp"
+#include "render/overlay/caption.hpp"
+#include "render/overlay/pen.hpp"
 
 namespace drape::overlay_text {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/effects/air.hpp"
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <tuple>
 
-#include "scene/mesh_file.hpp"
+#include "scene/mesh_value.hpp"
 #include "sim/collision/placed_mesh.hpp"
 #include "sim/effects/body.hpp"
 #include "sim/effects/moving_pins.hpp"

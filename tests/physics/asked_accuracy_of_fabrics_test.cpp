@@ -9,11 +9,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/cloth.hpp"
 #include "sim/effects/bending.hpp"
-#include "sim/fabrics.hpp"
-#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sim/effects/moving_pins.hpp"
-#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test::asked_accuracy {

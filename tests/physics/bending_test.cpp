@@ -7,12 +7,10 @@
 #include <numbers>
 
 #include "sim/bending/bending_energy.hpp"
-#include "sim/bending/hinges.hpp"
-#include "sim/blow_up.hpp"
 #include "sim/effects/bending.hpp"
-#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"

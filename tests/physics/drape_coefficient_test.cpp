@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/cloth.hpp"
 #include "sim/effects/bending.hpp"
-#include "sim/fabrics.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"

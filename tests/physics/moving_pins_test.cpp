@@ -4,9 +4,9 @@
 
 #include "sim/effects/ground.hpp"
 #include "sim/effects/moving_pins.hpp"
-#include "sim/make_system.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/simulation.hpp"
+#include "sim/system.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

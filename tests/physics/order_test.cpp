@@ -6,9 +6,9 @@
 #include <functional>
 #include <map>
 
-#include "sim/effects/air.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/moving_pins.hpp"
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
 #include "tests/physics/contact_settings.hpp"
 #include "tests/support/plain_springs.hpp"

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "sim/effects/wind.hpp"
-#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/solvers/accuracy.hpp"
+#include "sim/system.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "scene/mesh_file.hpp"
+#include "scene/mesh_value.hpp"
 #include "sim/simulation.hpp"
 #include "sim/step_objective.hpp"
 #include "tests/support/cloths.hpp"

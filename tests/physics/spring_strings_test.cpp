@@ -1,4 +1,4 @@
-#include "sim/effects/spring_strings.hpp"
+#include "sim/effects/strain_filter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,14 +6,13 @@
 #include <cmath>
 #include <complex>
 
-#include "sim/blow_up.hpp"
-#include "sim/effects/air.hpp"
 #include "sim/effects/field.hpp"
-#include "sim/field_drag.hpp"
-#include "sim/make_system.hpp"
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
-#include "sim/solvers/anderson.hpp"
+#include "sim/solvers/local_global.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
+#include "sim/velocity_field.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scene/tables.hpp"
-#include "sim/sphere_track.hpp"
+#include "sim/tracks.hpp"
 #include "tests/support/random.hpp"
 
 namespace drape::test {

@@ -9,11 +9,11 @@
 #include <regex>
 #include <sstream>
 
-#include "core/atomic_file.hpp"
+#include "core/files.hpp"
 #include "run/run_scene.hpp"
-#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 #include "tests/random/random_scene.hpp"
 #include "tests/support/scene_folder.hpp"
 #include "tests/support/step_ledger.hpp"

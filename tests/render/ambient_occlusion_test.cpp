@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/normals.hpp"
+#include "render/smooth_surface.hpp"
 #include "tests/support/random.hpp"
 
 namespace drape::test {

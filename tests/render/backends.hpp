@@ -5,9 +5,9 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "render/backend.hpp"
 #include "render/gl/context.hpp"
 #include "render/gl/inspect.hpp"
+#include "render/settings.hpp"
 
 namespace drape::test {
 

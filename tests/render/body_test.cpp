@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "render/draw_body.hpp"
+#include "render/draw_obstacles.hpp"
 #include "tests/render/drawing.hpp"
 
 namespace drape::test {

@@ -1,4 +1,4 @@
-#include "render/covered_box.hpp"
+#include "render/shot.hpp"
 
 #include <array>
 #include <cstddef>

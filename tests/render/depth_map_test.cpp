@@ -1,4 +1,4 @@
-#include "render/depth_map.hpp"
+#include "render/shadows.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "render/ground_shadow.hpp"
+#include "render/shadows.hpp"
 #include "render/shot.hpp"
 #include "render/view.hpp"
 #include "tests/render/drawing.hpp"

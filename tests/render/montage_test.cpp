@@ -1,4 +1,4 @@
-#include "render/montage.hpp"
+#include "render/image.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "render/gl/context.hpp"
-#include "render/gl/llvmpipe.hpp"
+#include "render/gl/inspect.hpp"
 #include "tests/render/drawing.hpp"
 
 namespace drape::test {

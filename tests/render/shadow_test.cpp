@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "render/cloth_shadow.hpp"
+#include "render/shadows.hpp"
 #include "render/shot.hpp"
 #include "tests/render/drawing.hpp"
 

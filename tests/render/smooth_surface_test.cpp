@@ -7,8 +7,6 @@
 #include <cmath>
 #include <map>
 
-#include "render/hem.hpp"
-#include "render/normals.hpp"
 #include "tests/render/drawing.hpp"
 
 namespace drape::test {

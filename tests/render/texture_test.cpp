@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "render/texture_image.hpp"
+#include "render/image.hpp"
 #include "tests/render/drawing.hpp"
 #include "tests/support/files.hpp"
 

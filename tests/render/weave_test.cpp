@@ -1,4 +1,4 @@
-#include "render/weave.hpp"
+#include "render/draw_cloth.hpp"
 
 #include <gtest/gtest.h>
 

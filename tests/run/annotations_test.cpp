@@ -1,11 +1,11 @@
-#include "run/annotations.hpp"
+#include "run/outputs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <opencv2/core.hpp>
 
-#include "overlay/color_map.hpp"
+#include "render/overlay/color_scale.hpp"
 #include "run/run_scene.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/read_picture.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "run/run_steps.hpp"
+#include "run/run_scene.hpp"
 #include "run/statistics.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/wind.hpp"

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "run/run_steps.hpp"
+#include "run/run_scene.hpp"
 #include "run/statistics.hpp"
 #include "tests/support/setups.hpp"
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "run/frame_sampler.hpp"
-#include "run/run_steps.hpp"
+#include "run/frame_source.hpp"
+#include "run/run_scene.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape {

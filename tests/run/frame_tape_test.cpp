@@ -1,4 +1,4 @@
-#include "run/frame_tape.hpp"
+#include "run/frame_source.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <regex>
 
-#include "output/make_sink.hpp"
+#include "output/registry.hpp"
 #include "tests/support/written_motion.hpp"
 
 // Reads an archive by its format's specification: from the directory at its end.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "output/make_sink.hpp"
-#include "scene/mesh_file.hpp"
+#include "output/registry.hpp"
+#include "scene/mesh_value.hpp"
 #include "tests/support/written_motion.hpp"
 
 namespace drape::obj {

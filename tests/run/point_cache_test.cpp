@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "output/make_sink.hpp"
-#include "scene/mesh_file.hpp"
+#include "output/registry.hpp"
+#include "scene/mesh_value.hpp"
 #include "tests/support/written_motion.hpp"
 
 namespace drape::point_cache {

@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include "core/read_file.hpp"
+#include "core/files.hpp"
 #include "run/outputs.hpp"
-#include "run/poster.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace drape {

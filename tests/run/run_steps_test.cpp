@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "run/run_steps.hpp"
+#include "run/run_scene.hpp"
 #include "run/statistics.hpp"
 #include "tests/support/setups.hpp"
 

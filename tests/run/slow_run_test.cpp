@@ -1,12 +1,12 @@
 // A long run reports early that it will be slow, why, and faster alternatives.
 
-#include "run/slow_run_warning.hpp"
+#include "run/progress.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "run/run_steps.hpp"
+#include "run/run_scene.hpp"
 #include "sim/effects/gravity.hpp"
 
 namespace drape {

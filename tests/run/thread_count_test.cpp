@@ -1,10 +1,10 @@
-#include "run/thread_count.hpp"
+#include "run/shard.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/processors.hpp"
+#include "core/machine.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

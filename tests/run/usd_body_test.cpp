@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scene/mesh_file.hpp"
+#include "scene/mesh_value.hpp"
 #include "tests/support/written_motion.hpp"
 
 namespace drape {

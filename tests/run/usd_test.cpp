@@ -4,7 +4,7 @@
 #include <regex>
 #include <sstream>
 
-#include "scene/mesh_file.hpp"
+#include "scene/mesh_value.hpp"
 #include "scene/usd/mesh.hpp"
 #include "scene/usd/motion.hpp"
 #include "scene/usd/stage.hpp"

@@ -7,11 +7,10 @@
 #include <cmath>
 #include <regex>
 
-#include "scene/method_names.hpp"
-#include "sim/blow_up.hpp"
-#include "sim/make_system.hpp"
+#include "scene/scene.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 #include "study/stability.hpp"
 #include "tests/stability/hard_cases.hpp"
 #include "tests/stability/traps.hpp"

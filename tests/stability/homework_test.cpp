@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "scene/scene.hpp"
-#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 #include "tests/stability/traps.hpp"
 #include "tests/support/methods.hpp"
 

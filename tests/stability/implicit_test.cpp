@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/make_system.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 #include "tests/stability/hard_cases.hpp"
 #include "tests/stability/traps.hpp"
 #include "tests/support/step_ledger.hpp"

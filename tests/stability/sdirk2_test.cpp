@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "sim/effects/gravity.hpp"
-#include "sim/make_system.hpp"
-#include "sim/schemes/sdirk2_guard.hpp"
+#include "sim/schemes/sdirk2.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 #include "tests/stability/hard_cases.hpp"
 #include "tests/stability/traps.hpp"
 #include "tests/support/setups.hpp"

@@ -1,4 +1,4 @@
-#include "study/accuracy_cheapest.hpp"
+#include "study/accuracy_asked.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "study/accuracy.hpp"
-#include "scene/method_names.hpp"
+#include "scene/scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "sim/effects/ground.hpp"
 #include "study/accuracy_report.hpp"
-#include "study/film_judge.hpp"
-#include "study/local_error.hpp"
+#include "study/animation.hpp"
+#include "study/solve_error.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {

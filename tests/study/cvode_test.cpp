@@ -6,7 +6,7 @@
 #include "scene/scene.hpp"
 #include "sim/effects/gravity.hpp"
 #include "study/reference.hpp"
-#include "study/step_reference.hpp"
+#include "study/solve_error.hpp"
 
 #ifdef DRAPE_HAS_CVODE
 #include <cvode/cvode.h>

@@ -1,4 +1,4 @@
-#include "figures/diagram_files.hpp"
+#include "reports/diagram_files.hpp"
 
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
@@ -6,8 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/error.hpp"
-#include "figures/svg_printer.hpp"
-#include "study/method_series.hpp"
+#include "reports/chart.hpp"
 #include "study/stability_map.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/read_picture.hpp"

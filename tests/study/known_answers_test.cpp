@@ -7,8 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "study/elastica.hpp"
-#include "study/validation_case.hpp"
+#include "study/validation.hpp"
 
 namespace drape {
 namespace {

@@ -1,10 +1,10 @@
 #include "study/measure.hpp"
-#include "scene/method_names.hpp"
+#include "scene/scene.hpp"
 
 #include <gtest/gtest.h>
 
-#include "study/homework_cases.hpp"
-#include "study/homework_conclusions.hpp"
+#include "study/homework.hpp"
+#include "study/homework_report.hpp"
 
 namespace drape {
 namespace {

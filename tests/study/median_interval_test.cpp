@@ -1,4 +1,4 @@
-#include "study/median_interval.hpp"
+#include "study/measure.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "study/power_law.hpp"
+#include "study/profile.hpp"
 
 #include <gtest/gtest.h>
 

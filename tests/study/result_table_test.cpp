@@ -1,4 +1,4 @@
-#include "figures/result_table.hpp"
+#include "reports/result_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <regex>
 
 #include "core/text.hpp"
-#include "html/markdown.hpp"
+#include "reports/latex.hpp"
 #include "tests/support/hostile_names.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -173,8 +173,8 @@ TEST(Markdown, ShowsTextAsItIs) {
 }
 
 TEST(Markdown, LinksToAnyFile) {
-  EXPECT_EQ(link_target("a-1_b.svg"), "a-1_b.svg");
-  EXPECT_EQ(link_target("x';system(\"a b\");#µ.svg"), "x%27%3Bsystem%28%22a%20b%22%29%3B%23%C2%B5.svg");
+  EXPECT_EQ(link_to_file("a-1_b.svg"), "a-1_b.svg");
+  EXPECT_EQ(link_to_file("x';system(\"a b\");#µ.svg"), "x%27%3Bsystem%28%22a%20b%22%29%3B%23%C2%B5.svg");
 }
 
 }  // namespace

@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/simulation.hpp"
-#include "study/kernel_clock.hpp"
-#include "study/scaling_report.hpp"
+#include "study/measure.hpp"
 
 namespace drape {
 namespace {

@@ -1,4 +1,4 @@
-#include "study/step_reference.hpp"
+#include "study/solve_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "study/study_motion.hpp"
+#include "study/reference.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "study/stability_motions.hpp"
+#include "study/stability.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {

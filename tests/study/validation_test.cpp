@@ -10,10 +10,9 @@
 #include <utility>
 
 #include "scene/scene.hpp"
-#include "study/validation_answers.hpp"
+#include "study/known_answers.hpp"
 #include "study/validation_measures.hpp"
 #include "study/validation_report.hpp"
-#include "study/validation_runs.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"
 

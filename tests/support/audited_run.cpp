@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "audit/crossings.hpp"
-#include "audit/inside.hpp"
 #include "audit/passages.hpp"
 #include "sim/simulation.hpp"
 

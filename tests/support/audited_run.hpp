@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "audit/energy_rise.hpp"
+#include "audit/motion_audit.hpp"
 #include "sim/settings.hpp"
 
 namespace drape::test {

@@ -4,7 +4,7 @@
 #include <string>
 #include <variant>
 
-#include "output/make_sink.hpp"
+#include "output/registry.hpp"
 
 namespace drape::test {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "check/words.hpp"
+#include "check/report.hpp"
 
 namespace drape::test {
 

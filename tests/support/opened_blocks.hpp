@@ -6,10 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/byte_planes.hpp"
-#include "motion/block_writer.hpp"
+#include "core/hash.hpp"
+#include "motion/blocks.hpp"
 #include "motion/header.hpp"
-#include "motion/packing.hpp"
 
 namespace drape::test {
 

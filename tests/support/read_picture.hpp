@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string_view>
 
-#include "codecs/codecs.hpp"
+#include "output/codecs/codecs.hpp"
 #include "tests/support/files.hpp"
 
 namespace drape::test {

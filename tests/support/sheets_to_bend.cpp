@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "sim/grid.hpp"
+#include "sim/mesh.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
 

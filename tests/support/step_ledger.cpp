@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/make_system.hpp"
 #include "sim/solvers/accuracy.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 
 namespace drape::test {
 namespace {

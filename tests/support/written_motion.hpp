@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "run/run_scene.hpp"
-#include "run/run_steps.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scene_folder.hpp"
 

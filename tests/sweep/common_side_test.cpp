@@ -1,4 +1,4 @@
-#include "sweep/common_side.hpp"
+#include "sweep/page.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/exit_code.hpp"
+#include "cli/environment.hpp"
 #include "sweep/merge.hpp"
-#include "sweep/report.hpp"
+#include "sweep/page.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/files.hpp"
 #include "tests/sweep/sweep_runs.hpp"

@@ -8,7 +8,6 @@
 #include "sweep/plan.hpp"
 #include "sweep/results.hpp"
 #include "sweep/run_sweep.hpp"
-#include "sweep/tables.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape::test {

@@ -1,4 +1,4 @@
-#include "sweep/variation.hpp"
+#include "sweep/request.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "sim/collision/body_candidates.hpp"
+#include "sim/collision/candidates.hpp"
 #include "sim/effects/body.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"

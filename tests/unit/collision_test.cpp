@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sim/collision/candidates.hpp"
-#include "sim/collision/impact.hpp"
-#include "sim/collision/rigid_zones.hpp"
+#include "sim/collision/distance.hpp"
+#include "sim/collision/placed_mesh.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"

@@ -10,8 +10,8 @@
 
 #include "sim/effects/bending.hpp"
 #include "sim/effects/ground.hpp"
-#include "sim/linear/conjugate_gradients.hpp"
 #include "sim/linear/newton_cholesky.hpp"
+#include "sim/linear/newton_solver.hpp"
 #include "sim/step_objective.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"

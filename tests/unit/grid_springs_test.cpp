@@ -1,4 +1,4 @@
-#include "sim/grid_springs.hpp"
+#include "sim/spring_network.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/grid.hpp"
+#include "sim/mesh.hpp"
 #include "tests/support/scene_folder.hpp"
 #include "tests/support/setups.hpp"
 

@@ -1,4 +1,4 @@
-#include "sim/grid.hpp"
+#include "sim/mesh.hpp"
 
 #include <gtest/gtest.h>
 

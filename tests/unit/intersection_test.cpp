@@ -1,6 +1,6 @@
 // Detection of a mesh that passes through itself: a flat one never does, and every real intersection is found.
 
-#include "sim/collision/intersection.hpp"
+#include "sim/collision/distance.hpp"
 
 #include <gtest/gtest.h>
 

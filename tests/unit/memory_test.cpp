@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/memory.hpp"
+#include "core/machine.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace drape::test {

@@ -1,4 +1,4 @@
-#include "scene/mesh_file.hpp"
+#include "scene/mesh_value.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "scene/mesh/builder.hpp"
+#include "scene/mesh/source.hpp"
 #include "tests/support/usage_error.hpp"
 
 namespace drape {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "scene/mesh_file.hpp"
+#include "scene/mesh_value.hpp"
 #include "sim/mesh.hpp"
 
 namespace drape {

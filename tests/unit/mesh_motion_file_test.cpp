@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "scene/mesh_file.hpp"
+#include "scene/mesh_value.hpp"
 #include "scene/usd/mesh.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"

@@ -6,14 +6,14 @@
 
 #include <cmath>
 
-#include "sim/effects/air.hpp"
 #include "sim/effects/field.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/moving_pins.hpp"
 #include "sim/effects/self_collision.hpp"
-#include "sim/make_system.hpp"
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
+#include "sim/system.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

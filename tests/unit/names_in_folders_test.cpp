@@ -1,4 +1,4 @@
-#include "core/names_in_folders.hpp"
+#include "core/installation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "scene/mesh_file.hpp"
+#include "scene/mesh_value.hpp"
 #include "tests/support/usage_error.hpp"
 
 namespace drape {

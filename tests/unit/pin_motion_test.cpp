@@ -1,6 +1,6 @@
 // Turning pins, and pins attached to a mesh.
 
-#include "sim/pin_motion.hpp"
+#include "sim/tracks.hpp"
 
 #include <gtest/gtest.h>
 

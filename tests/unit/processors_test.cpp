@@ -1,4 +1,4 @@
-#include "core/processors.hpp"
+#include "core/machine.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>

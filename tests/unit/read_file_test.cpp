@@ -1,4 +1,4 @@
-#include "core/read_file.hpp"
+#include "core/files.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

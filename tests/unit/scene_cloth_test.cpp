@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "scene/cloth_shape.hpp"
 #include "scene/scene.hpp"
+#include "scene/selection.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {

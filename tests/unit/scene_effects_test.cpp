@@ -7,8 +7,8 @@
 #include <string>
 
 #include "scene/usd/motion.hpp"
-#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
+#include "sim/system.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {

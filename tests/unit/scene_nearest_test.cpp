@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/nearest.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <string>
 
-#include "scene/color.hpp"
 #include "scene/tables.hpp"
-#include "sim/fabrics.hpp"
+#include "scene/values.hpp"
+#include "sim/cloth.hpp"
 #include "tests/support/files.hpp"
 
 namespace drape {

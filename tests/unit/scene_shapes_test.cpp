@@ -6,9 +6,9 @@
 #include <map>
 #include <numbers>
 
-#include "scene/mesh_shape.hpp"
+#include "scene/mesh_value.hpp"
 #include "sim/body_shape.hpp"
-#include "sim/fabrics.hpp"
+#include "sim/cloth.hpp"
 #include "tests/support/scene_folder.hpp"
 
 // Shapes defined by a few numbers: their geometry, their keys in scenes, and errors.

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "sim/cloth.hpp"
-#include "sim/linear/free_vertices.hpp"
+#include "sim/linear/sparse_cholesky.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
 

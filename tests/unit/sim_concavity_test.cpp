@@ -10,9 +10,9 @@
 #include "sim/effects/bending.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/kernels/kernels.hpp"
-#include "sim/linear/cheaper_newton.hpp"
-#include "sim/make_system.hpp"
+#include "sim/linear/newton_cholesky.hpp"
 #include "sim/solvers/newton.hpp"
+#include "sim/system.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
 

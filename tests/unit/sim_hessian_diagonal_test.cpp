@@ -2,8 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "sim/linear/conjugate_gradients.hpp"
-#include "sim/linear/hessian_diagonal.hpp"
+#include "sim/linear/newton_solver.hpp"
 #include "tests/support/matrices.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"

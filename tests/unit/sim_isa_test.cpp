@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "sim/instruction_set.hpp"
 #include "sim/kernels/kernels.hpp"
+#include "sim/settings.hpp"
 #include "tests/support/usage_error.hpp"
 
 namespace drape::test {

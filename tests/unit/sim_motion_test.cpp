@@ -5,10 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/effects/gusts.hpp"
-#include "sim/keyframes.hpp"
-#include "sim/pin_motion.hpp"
-#include "sim/sphere_track.hpp"
+#include "sim/effects/wind.hpp"
+#include "sim/tracks.hpp"
 
 namespace drape {
 namespace {

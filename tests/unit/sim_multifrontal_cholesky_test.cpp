@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/linear/dissection.hpp"
 #include "sim/linear/multifrontal_cholesky.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "sim/linear/cheaper_newton.hpp"
+#include "sim/linear/newton_cholesky.hpp"
 #include "tests/support/matrices.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/plain_springs.hpp"

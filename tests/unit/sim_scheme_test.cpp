@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "sim/make_system.hpp"
 #include "sim/schemes/backward_euler.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/schemes/substeps.hpp"
 #include "sim/simulation.hpp"
 #include "sim/spring_network.hpp"
+#include "sim/system.hpp"
 #include "tests/support/cloths.hpp"
 #include "tests/support/setups.hpp"
 

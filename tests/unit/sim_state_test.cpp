@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "scene/method_names.hpp"
+#include "scene/scene.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/usage_error.hpp"

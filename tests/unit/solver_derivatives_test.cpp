@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "sim/effects/bending.hpp"
-#include "sim/linear/conjugate_gradients.hpp"
 #include "sim/linear/newton_cholesky.hpp"
+#include "sim/linear/newton_solver.hpp"
 #include "sim/step_objective.hpp"
 #include "tests/support/cloths.hpp"
 

@@ -4,9 +4,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "sim/linear/free_vertices.hpp"
+#include "sim/linear/sparse_cholesky.hpp"
 #include "sim/solvers/newton.hpp"
-#include "sim/solvers/patch_newton.hpp"
 #include "sim/solvers/quasi_newton.hpp"
 #include "tests/support/cloths.hpp"
 #include "tests/support/random.hpp"

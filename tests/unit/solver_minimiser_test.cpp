@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/solvers/lbfgs_history.hpp"
 #include "sim/solvers/minimiser.hpp"
+#include "sim/solvers/quasi_newton.hpp"
 #include "tests/support/cloths.hpp"
 #include "tests/support/setups.hpp"
 

@@ -1,4 +1,4 @@
-#include "sim/collision/spatial_hash.hpp"
+#include "sim/collision/spatial_index.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/temporary_folder.hpp"
+#include "core/files.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "sim/parallel/busy_backoff.hpp"
+#include "sim/parallel/threads.hpp"
 
 #include <gtest/gtest.h>
 

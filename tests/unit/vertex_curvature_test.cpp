@@ -1,4 +1,4 @@
-#include "sim/vertex_curvature.hpp"
+#include "sim/mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "sim/vertex_stretch.hpp"
+#include "sim/mesh.hpp"
 
 namespace drape {
 namespace {

@@ -1,0 +1,289 @@
+#include "check/ci_reports.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tinyxml2.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "check/compare_motion.hpp"
+#include "check/name_difference.hpp"
+#include "core/files.hpp"
+#include "core/text.hpp"
+#include "reports/latex.hpp"
+
+namespace drape {
+using Json = nlohmann::ordered_json;
+namespace {
+
+Json to_json(const std::optional<Deviation>& deviation) {
+  if (!deviation) return nullptr;
+  return {{"step", deviation->step}, {"vertex", deviation->vertex}, {"distance", deviation->distance}};
+}
+
+Json to_json(const WindowResult& window) {
+  Json deviations = Json::array();
+  for (const Deviation& deviation : window.deviations) deviations.push_back(to_json(deviation));
+  return {{"first_step", window.first_step},
+          {"last_step", window.last_step},
+          {"verdict", verdict_name(window.verdict)},
+          {"other_bits", window.other_bits ? Json(*window.other_bits) : Json(nullptr)},
+          {"first", to_json(window.first)},
+          {"largest", to_json(window.largest)},
+          {"deviations", std::move(deviations)},
+          {"problem", window.problem}};
+}
+
+/// Returns the JSON of a frame; `prefix` distinguishes the files of an end-to-end comparison.
+Json to_json(const SceneResult& scene, const FrameResult& frame, const std::string& prefix) {
+  const PictureDifference& d = frame.difference;
+  Json json{{"frame", frame.frame},
+            {"time", frame.time},
+            {"why", frame.why},
+            {"verdict", verdict_name(d.verdict)},
+            {"pixels", d.pixels},
+            {"fraction", d.fraction},
+            {"largest_channel", d.largest_channel},
+            {"mean_flip", d.mean_flip},
+            {"max_flip", d.max_flip},
+            {"worst_pixel", d.worst_pixel},
+            {"kind", frame.kind},
+            {"judged", frame.judged}};
+  if (d.verdict == PictureVerdict::exact) return json;
+  for (const char* kind : {"expected", "actual", "difference", "flip"}) {
+    json["files"][kind] = frame_file(scene, frame.frame, prefix + kind).string();
+  }
+  return json;
+}
+
+Json to_json(const SceneResult& scene, const Comparison& comparison, const std::string& prefix) {
+  Json windows = Json::array(), frames = Json::array();
+  for (const WindowResult& window : comparison.windows) windows.push_back(to_json(window));
+  for (const FrameResult& frame : comparison.frames) frames.push_back(to_json(scene, frame, prefix));
+  return {{"motion", verdict_name(comparison.motion)},
+          {"picture", verdict_name(comparison.picture)},
+          {"first_bad_frame", comparison.first_bad_frame ? Json(*comparison.first_bad_frame) : Json(nullptr)},
+          {"windows", std::move(windows)},
+          {"frames", std::move(frames)}};
+}
+
+Json to_json(const SceneResult& scene) {
+  Json json{{"name", scene.name},
+            {"file", scene.file.string()},
+            {"golden", scene.golden.string()},
+            {"verdict", verdict_name(scene.verdict)},
+            {"findings", scene.findings},
+            {"motion_tolerance", scene.settings.motion_tolerance},
+            {"limits",
+             {{"channel", scene.settings.limits.channel},
+              {"pixels", scene.settings.limits.pixels},
+              {"flip", scene.settings.limits.flip}}},
+            {"size", scene.size},
+            {"film", scene.film},
+            {"time", scene.time},
+            {"ignored", scene.ignored},
+            {"recorded_elsewhere", scene.elsewhere},
+            {"scene_changed", scene.scene_changed},
+            {"recorded_at", scene.recorded_at},
+            {"recorded_on", to_json(scene.recorded_on)},
+            {"rerun", scene.rerun_command},
+            {"accept", scene.accept_command},
+            {"candidate", scene.candidate},
+            {"seconds", scene.seconds},
+            {"windows", to_json(scene, scene.windows, "")}};
+  if (scene.end_to_end) json["end_to_end"] = to_json(scene, *scene.end_to_end, "end_to_end.");
+  if (!scene.animation.empty()) json["animation"] = scene.name + "/difference.gif";
+  return json;
+}
+
+void write_frames(const SceneResult& scene, const Comparison& comparison, const std::string& prefix,
+                  const std::filesystem::path& folder) {
+  for (const FrameResult& frame : comparison.frames) {
+    if (frame.difference.verdict == PictureVerdict::exact) continue;
+    const auto write = [&](const char* kind, const Png& png) {
+      write_file_atomically(folder / frame_file(scene, frame.frame, prefix + kind), png);
+    };
+    write("expected", frame.expected);
+    write("actual", frame.actual);
+    write("difference", frame.amplified);
+    write("flip", frame.flip_map);
+  }
+}
+
+}  // namespace
+
+std::string json_report(const CheckReport& report) {
+  Json scenes = Json::array();
+  for (const SceneResult& scene : report.scenes) scenes.push_back(to_json(scene));
+  const Json json{{"format", 1},
+                  {"passed", report.passed()},
+                  {"command", full_command(report)},
+                  {"date", report.date},
+                  {"seconds", report.seconds},
+                  {"machine", to_json(report.machine)},
+                  {"scenes", std::move(scenes)}};
+  // File names may be other than UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_frame_files(const CheckReport& report, const std::filesystem::path& folder) {
+  for (const SceneResult& scene : report.scenes) {
+    write_frames(scene, scene.windows, "", folder);
+    if (scene.end_to_end) write_frames(scene, *scene.end_to_end, "end_to_end.", folder);
+  }
+}
+
+namespace {
+
+struct Case {
+  const SceneResult* scene;
+  std::string name, failure, output;  // `failure` is its message; empty: passed
+
+  [[nodiscard]] bool is_error() const { return scene->verdict == SceneVerdict::error; }
+};
+
+std::string sentences(const SceneResult& scene) {
+  std::string text;
+  for (const std::string& finding : scene.findings) text += finding + "\n";
+  return text;
+}
+
+Case motion_case(const SceneResult& scene, const Comparison& comparison, const char* name) {
+  Case test{&scene, name, {}, verdict_name(comparison.motion)};
+  if (comparison.motion == MotionVerdict::changed) {
+    test.failure = describe_motion(comparison.windows);
+    if (test.failure.empty()) test.failure = scene.findings.empty() ? "changed" : scene.findings.front();
+  }
+  return test;
+}
+
+Case picture_case(const SceneResult& scene, const Comparison& comparison, const char* name) {
+  Case test{&scene, name, {}, picture_verdict(scene, comparison)};
+  if (comparison.picture != PictureVerdict::changed) return test;
+  for (const FrameResult& frame : comparison.frames) {
+    if (!frame.judged || frame.difference.verdict != PictureVerdict::changed) continue;
+    test.failure += fmt::format("{}frame {}: {:.3g} % of the pixels, FLIP error up to {:.3f}",
+                                test.failure.empty() ? "changed: " : "; ", frame.frame, 100 * frame.difference.fraction,
+                                frame.difference.max_flip);
+  }
+  if (test.failure.empty()) test.failure = scene.findings.empty() ? "changed" : scene.findings.back();
+  return test;
+}
+
+std::vector<Case> cases_of(const SceneResult& scene) {
+  if (scene.verdict == SceneVerdict::missing) return {{&scene, "golden", "there is no golden to compare with", {}}};
+  if (scene.verdict == SceneVerdict::error)
+    return {{&scene, "golden", fmt::format("{}", fmt::join(scene.findings, "; ")), {}}};
+  if (scene.verdict == SceneVerdict::updated) return {{&scene, "golden", {}, "updated"}};
+  std::vector<Case> cases{motion_case(scene, scene.windows, "motion"), picture_case(scene, scene.windows, "pictures")};
+  if (!scene.film.empty()) cases.push_back({&scene, "film", scene.film, {}});
+  if (!scene.time.empty()) cases.push_back({&scene, "time", scene.time, {}});
+  if (scene.end_to_end) {
+    cases.push_back(motion_case(scene, *scene.end_to_end, "motion end to end"));
+    cases.push_back(picture_case(scene, *scene.end_to_end, "pictures end to end"));
+  }
+  return cases;
+}
+
+void write(tinyxml2::XMLPrinter& xml, const Case& test) {
+  xml.OpenElement("testcase");
+  xml.PushAttribute("classname", printable(test.scene->file.string()).c_str());
+  xml.PushAttribute("name", test.name.c_str());
+  // Only the first case of a scene has the time, which covers all of them.
+  xml.PushAttribute(
+      "time",
+      fmt::format("{:.3f}", test.name == "motion" || test.name == "golden" ? test.scene->seconds : 0.0).c_str());
+  if (!test.failure.empty()) {
+    xml.OpenElement(test.is_error() ? "error" : "failure");
+    xml.PushAttribute("message", printable(test.failure).c_str());
+    const std::string& accept = test.scene->accept_command;
+    xml.PushText(printable(sentences(*test.scene) + "rerun: " + test.scene->rerun_command +
+                           (accept.empty() ? "" : "\naccept: " + accept))
+                     .c_str());
+    xml.CloseElement();
+  } else if (!test.output.empty()) {
+    xml.OpenElement("system-out");
+    xml.PushText(test.output.c_str());
+    xml.CloseElement();
+  }
+  xml.CloseElement();
+}
+
+}  // namespace
+
+std::string junit_report(const CheckReport& report) {
+  std::vector<Case> cases;
+  int failures = 0, errors = 0;
+  for (const SceneResult& scene : report.scenes) {
+    for (Case& test : cases_of(scene)) {
+      if (!test.failure.empty()) ++(test.is_error() ? errors : failures);
+      cases.push_back(std::move(test));
+    }
+  }
+  tinyxml2::XMLPrinter xml;
+  xml.PushHeader(false, true);
+  xml.OpenElement("testsuites");
+  xml.OpenElement("testsuite");
+  xml.PushAttribute("name", "drape check");
+  xml.PushAttribute("tests", static_cast<int>(cases.size()));
+  xml.PushAttribute("failures", failures);
+  xml.PushAttribute("errors", errors);
+  xml.PushAttribute("time", fmt::format("{:.3f}", report.seconds).c_str());
+  xml.PushAttribute("timestamp", report.date.substr(0, report.date.find('Z')).c_str());
+  for (const Case& test : cases) write(xml, test);
+  xml.CloseElement();
+  xml.CloseElement();
+  return std::string(xml.CStr()) + "\n";
+}
+
+namespace {
+
+/// Escapes a text for a workflow command, see "Workflow commands for GitHub Actions".
+/// @param property true for the value of a property, in which ':' and ',' are special
+std::string command_text(std::string_view text, bool property) {
+  std::string escaped;
+  for (const char c : escape_controls(text)) {
+    const bool special = c == '%' || c == '\r' || c == '\n' || (property && (c == ':' || c == ','));
+    escaped += special ? fmt::format("%{:02X}", static_cast<unsigned>(c)) : std::string(1, c);
+  }
+  return escaped;
+}
+
+}  // namespace
+
+std::string github_summary(const CheckReport& report) {
+  std::vector<const SceneResult*> scenes;
+  for (const SceneResult& scene : report.scenes) scenes.push_back(&scene);
+  std::ranges::stable_sort(scenes, std::less(), [](const SceneResult* scene) { return scene->passed(); });
+  const auto failed = std::ranges::count_if(scenes, [](const SceneResult* scene) { return !scene->passed(); });
+  std::string text = fmt::format("### drape check: {}\n\n",
+                                 failed == 0 ? fmt::format("{} scenes are as they were", scenes.size())
+                                             : fmt::format("{} of {} scenes failed", failed, scenes.size()));
+  text += "| scene | verdict | motion | pictures | what was found |\n|---|---|---|---|---|\n";
+  for (const SceneResult* scene : scenes) {
+    const Comparison& windows = scene->windows;
+    text += fmt::format("| {} | {} {} | {} | {} | {} |\n", markdown(scene->file.string()), scene->passed() ? "✅" : "❌",
+                        verdict_name(scene->verdict), windows.windows.empty() ? "–" : verdict_name(windows.motion),
+                        windows.frames.empty() ? "–" : picture_verdict(*scene, windows),
+                        markdown(fmt::format("{}", fmt::join(scene->findings, "; "))));
+  }
+  if (!report.accept_command.empty())
+    text += fmt::format("\nTo accept all of it: {}\n", markdown_code(report.accept_command));
+  return text;
+}
+
+std::string github_annotations(const CheckReport& report) {
+  std::string text;
+  for (const SceneResult& scene : report.scenes) {
+    if (scene.passed()) continue;
+    text += fmt::format("::error file={},title={}::{}\n", command_text(scene.file.string(), true),
+                        command_text(fmt::format("drape check: {}", verdict_name(scene.verdict)), true),
+                        command_text(fmt::format("{}", fmt::join(scene.findings, "; ")), false));
+  }
+  return text;
+}
+
+}  // namespace drape

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "check/compare_motion.hpp"
+#include "check/draw_frames.hpp"
+#include "check/golden.hpp"
+#include "run/progress.hpp"
+#include "scene/scene.hpp"
+
+namespace drape {
+
+/// Serialises the windows of a golden motion and the positions of its pictures as motion.bin, without loss. A row of a
+/// vector field is stored in multiples of the field's quantum, or as raw bits if it is not a multiple. Both are stored
+/// as differences from a prediction by neighbouring vertices. Body positions are stored as second differences, those
+/// that are not 0. All become 64-bit words, arranged by byte significance (so that similar bytes are adjacent), and
+/// compressed by zlib.
+std::string pack_motion(const Golden& golden);
+
+/// Reads motion.bin: fills in the windows of a golden and the positions of its frames; all else must be known. Every
+/// number read is finite. The size is limited to that of such a golden.
+/// @throws std::invalid_argument that describes the error in the bytes
+void unpack_motion(std::string_view bytes, Golden& golden);
+
+/// Returns the largest size of a golden's motion [bytes].
+std::uint64_t most_motion_bytes(const Golden& golden);
+
+/// A plan for recording a scene's motion.
+struct RecordPlan {
+  std::vector<ChosenFrame> frames;  ///< frames to compare, ascending
+  std::int64_t window_steps = 1;
+  RoundingUnits quanta;
+};
+
+/// Plans the recording by the scene's [check] table. Without frames in it, runs the motion and chooses significant
+/// frames.
+/// @param recorded the motion to read; null: the scene is simulated
+/// @throws UsageError if the film has no such frame; DivergedError
+/// @returns nothing if stopped
+std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings& settings, const std::stop_token& stop,
+                                         Progress& progress, PlayedMotion* recorded = nullptr);
+
+/// Returns the plan by which a golden was recorded.
+RecordPlan plan_of(const Golden& golden);
+
+/// Runs a scene's motion, or reads a recorded one, and places the camera.
+/// @returns a golden without pictures, date and machine; nothing if stopped
+/// @throws DivergedError
+std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan,
+                                    const std::stop_token& stop, Progress& progress, PlayedMotion* recorded = nullptr);
+
+/// Returns the film settings of a scene that its golden keeps.
+GoldenFilm film_of(const Scene& scene);
+
+/// Returns the size of a scene's golden pictures [pixels].
+Eigen::Vector2i picture_size(const Scene& scene, const CheckSettings& settings);
+
+/// Computes the camera views as if the compared frames were the whole motion. They change only with the camera, the
+/// visible scene, or the algorithm that places the camera.
+/// @returns a view per frame
+std::vector<View> views_of_frames(const Scene& scene, const Eigen::Vector2i& size,
+                                  const std::vector<GoldenFrame>& frames);
+
+}  // namespace drape

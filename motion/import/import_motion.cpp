@@ -1,0 +1,405 @@
+#include "motion/import/import_motion.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/text.hpp"
+#include "motion/import/mesh_sequence.hpp"
+#include "motion/import/motion_source.hpp"
+#include "motion/reader.hpp"
+#include "motion/writer.hpp"
+#include "scene/mesh/source.hpp"
+#include "scene/scene.hpp"
+#include "sim/system.hpp"
+
+namespace drape {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array<std::string_view, 5> mesh_endings{".obj", ".ply", ".vtp", ".vtu", ".vtk"};
+constexpr std::array<std::string_view, 5> film_endings{".npz", ".pc2", ".pvd", ".usda", ".usd"};
+
+/// A motion converted to other coordinates.
+class TransformedMotion final : public MotionSource {
+ public:
+  TransformedMotion(std::shared_ptr<MotionSource> source, const ImportAxes& axes)
+      : source_(std::move(source)), axes_(axes) {
+    mesh_ = source_->mesh();
+    turn(mesh_.positions, axes_.scale);
+  }
+
+  [[nodiscard]] const std::string& name() const override { return source_->name(); }
+  [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
+  [[nodiscard]] std::size_t count() const override { return source_->count(); }
+  [[nodiscard]] std::vector<double> times() override { return source_->times(); }
+  [[nodiscard]] std::optional<double> fps() override { return source_->fps(); }
+  [[nodiscard]] std::optional<Vertices> rest() override {
+    std::optional<Vertices> x = source_->rest();
+    if (x) turn(*x, axes_.scale);
+    return x;
+  }
+  [[nodiscard]] ImportedMoment moment(std::size_t i) override {
+    ImportedMoment moment = source_->moment(i);
+    turn(moment.x, axes_.scale);
+    turn(moment.v, axes_.scale);
+    return moment;
+  }
+  [[nodiscard]] ImportedColliders colliders() override {
+    ImportedColliders found = source_->colliders();
+    for (auto* const shapes : {&found.spheres, &found.grounds}) {
+      for (auto& row : shapes->by_moment) {
+        for (Eigen::Vector4d& four : row) {
+          Vertices place = four.head<3>().transpose();
+          turn(place, shapes == &found.spheres ? axes_.scale : 1);
+          four.head<3>() = place.transpose();
+          four[3] *= axes_.scale;
+        }
+      }
+    }
+    for (auto& body : found.bodies) body = std::make_shared<TransformedMotion>(body, axes_);
+    return found;
+  }
+
+ private:
+  void turn(Vertices& x, double scale) const {
+    if (axes_.y_up) {
+      x.col(1).swap(x.col(2));
+      x.col(1) *= -1;
+    }
+    if (scale != 1) x *= scale;
+  }
+
+  std::shared_ptr<MotionSource> source_;
+  ImportAxes axes_;
+  Mesh mesh_;
+};
+
+Vertices stacked(const Vertices& above, const Vertices& below) {
+  Vertices all(above.rows() + below.rows(), 3);
+  all << above, below;
+  return all;
+}
+
+/// Two motions with their meshes joined into one.
+class JoinedMotion final : public MotionSource {
+ public:
+  JoinedMotion(std::unique_ptr<MotionSource> first, std::unique_ptr<MotionSource> second)
+      : first_(std::move(first)), second_(std::move(second)) {
+    if (first_->count() != second_->count()) {
+      fail_import(second_->name(),
+                  fmt::format("it has {} frames, and {} has {}: cloths that are imported together need "
+                              "as many",
+                              second_->count(), first_->name(), first_->count()));
+    }
+    const Mesh &a = first_->mesh(), &b = second_->mesh();
+    mesh_.positions = stacked(a.positions, b.positions);
+    mesh_.triangles = a.triangles;
+    const int shift = static_cast<int>(a.positions.rows());
+    for (const Triangle& t : b.triangles) mesh_.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+    if (a.uvs.empty() && b.uvs.empty()) return;
+    mesh_.uvs = a.uvs;
+    mesh_.uvs.resize(3 * a.triangles.size());
+    mesh_.uvs.insert(mesh_.uvs.end(), b.uvs.begin(), b.uvs.end());
+    mesh_.uvs.resize(3 * mesh_.triangles.size());
+  }
+
+  [[nodiscard]] const std::string& name() const override { return first_->name(); }
+  [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
+  [[nodiscard]] std::size_t count() const override { return first_->count(); }
+  [[nodiscard]] std::vector<double> times() override { return first_->times(); }
+  [[nodiscard]] std::optional<double> fps() override { return first_->fps(); }
+  [[nodiscard]] std::optional<Vertices> rest() override {
+    const std::optional<Vertices> a = first_->rest(), b = second_->rest();
+    if (!a && !b) return std::nullopt;
+    return stacked(a.value_or(first_->mesh().positions), b.value_or(second_->mesh().positions));
+  }
+  [[nodiscard]] ImportedMoment moment(std::size_t i) override {
+    const ImportedMoment a = first_->moment(i), b = second_->moment(i);
+    ImportedMoment moment{.x = stacked(a.x, b.x)};
+    if (a.v.rows() > 0 && b.v.rows() > 0) moment.v = stacked(a.v, b.v);
+    return moment;
+  }
+  [[nodiscard]] ImportedColliders colliders() override {
+    ImportedColliders all = first_->colliders();
+    const ImportedColliders more = second_->colliders();
+    all.bodies.insert(all.bodies.end(), more.bodies.begin(), more.bodies.end());
+    if (all.spheres.by_moment.empty()) all.spheres = more.spheres;
+    if (all.grounds.by_moment.empty()) all.grounds = more.grounds;
+    return all;
+  }
+
+ private:
+  std::unique_ptr<MotionSource> first_, second_;
+  Mesh mesh_;
+};
+
+}  // namespace
+
+bool is_importable(const fs::path& file) {
+  const std::string ending = lower_ending(file);
+  return std::ranges::find(mesh_endings, ending) != mesh_endings.end() ||
+         std::ranges::find(film_endings, ending) != film_endings.end();
+}
+
+std::unique_ptr<MotionSource> open_motion_source(const fs::path& file, const fs::path& mesh, const std::string& prim) {
+  const std::string ending = lower_ending(file);
+  if (!mesh.empty() && ending != ".pc2") fail_import(file.string(), "only a .pc2 needs a mesh of its own: omit --mesh");
+  const bool usd = ending == ".usda" || ending == ".usd";
+  if (!prim.empty() && !usd) fail_import(file.string(), "only a USD file has prims: omit --prim");
+  if (ending == ".npz") return open_npz(file);
+  if (ending == ".pvd") return open_pvd(file);
+  if (ending == ".pc2") return open_pc2(file, mesh);
+  if (usd) return open_usd(file, prim);
+  if (std::ranges::find(mesh_endings, ending) != mesh_endings.end()) return open_mesh_sequence(file);
+  std::vector<std::string> known(film_endings.begin(), film_endings.end());
+  known.insert(known.end(), mesh_endings.begin(), mesh_endings.end());
+  fail_import(file.string(), "expected a motion: " + fmt::format("{}", fmt::join(known, ", ")));
+}
+
+std::unique_ptr<MotionSource> with_axes(std::unique_ptr<MotionSource> source, const ImportAxes& axes) {
+  if (!axes.y_up && axes.scale == 1) return source;
+  return std::make_unique<TransformedMotion>(std::move(source), axes);
+}
+
+std::unique_ptr<MotionSource> joined(std::vector<std::unique_ptr<MotionSource>> sources) {
+  std::unique_ptr<MotionSource> all = std::move(sources.front());
+  for (std::size_t i = 1; i < sources.size(); ++i)
+    all = std::make_unique<JoinedMotion>(std::move(all), std::move(sources[i]));
+  return all;
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+/// Formats an OBJ with numbers that can be read back exactly.
+std::string exact_obj(const Mesh& mesh) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  for (const auto& x : mesh.positions.rowwise()) fmt::format_to(out, "v {} {} {}\n", x[0], x[1], x[2]);
+  for (const auto& uv : mesh.uvs) fmt::format_to(out, "vt {} {}\n", uv[0], uv[1]);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    text += 'f';
+    for (std::size_t c = 0; c < 3; ++c) {
+      fmt::format_to(out, " {}", mesh.triangles[t][c] + 1);
+      if (!mesh.uvs.empty()) fmt::format_to(out, "/{}", 3 * t + c + 1);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+/// Writer of the scene that an imported motion needs for drawing.
+class ImportedScene {
+ public:
+  ImportedScene(const fs::path& folder, const TimeGrid& grid) : folder_(folder), grid_(grid) {}
+
+  void add_cloth(MotionSource& cloth) {
+    write_file_atomically(folder_ / "cloth.obj", exact_obj(cloth.mesh()));
+    text_ += "[cloth]\nmesh = \"cloth.obj\"\n";
+    if (const std::optional<Vertices> rest = cloth.rest()) {
+      write_file_atomically(folder_ / "rest.obj", exact_obj({.positions = *rest, .triangles = cloth.mesh().triangles}));
+      text_ += "rest = \"rest.obj\"\n";
+    }
+    text_ += fmt::format(
+        "stiffness = 1\n\n[integrator]\nmethod = \"quasi-newton\"\nallow_unstable = true\n\n[time]\nstep = "
+        "{}\nduration = {}\n\n[video]\nfps = "
+        "{}\n"
+        "speed = {}\n",
+        grid_.step, static_cast<double>(grid_.steps.back()) * grid_.step, grid_.fps, grid_.speed);
+  }
+
+  void add(const ImportedColliders& colliders) {
+    const auto& grounds = colliders.grounds.by_moment;
+    for (std::size_t k = 0; !grounds.empty() && k < grounds.front().size(); ++k) {
+      const Eigen::Vector4d& g = grounds.front()[k];
+      text_ +=
+          fmt::format("\n[[effects.ground]]\nnormal = [{}, {}, {}]\nheight = {}\nthickness = 0\nallow_overlap = true\n",
+                      g[0], g[1], g[2], g[3]);
+    }
+    const auto& spheres = colliders.spheres.by_moment;
+    for (std::size_t k = 0; !spheres.empty() && k < spheres.front().size(); ++k) add_sphere(spheres, k);
+    for (const auto& body : colliders.bodies) add_body(*body);
+  }
+
+  /// Adds a body that moves with the frames of the cloth, or rests.
+  void add_body(MotionSource& body) {
+    if (body.count() != 1 && body.count() != grid_.steps.size()) {
+      fail_import(body.name(), fmt::format("it has {} frames; a body has one, or as many as the cloth, {}",
+                                           body.count(), grid_.steps.size()));
+    }
+    ++bodies_;
+    Mesh mesh{.positions = body.moment(0).x, .triangles = body.mesh().triangles};
+    const std::string name = fmt::format("body{}", bodies_), first = exact_obj(mesh);
+    bool moves = false;
+    write_file_atomically(folder_ / (name + "-000000.obj"), first);
+    for (std::size_t i = 1; i < body.count(); ++i) {
+      mesh.positions = body.moment(i).x;
+      const std::string text = exact_obj(mesh);
+      moves = moves || text != first;
+      write_file_atomically(folder_ / fmt::format("{}-{:06}.obj", name, i), text);
+    }
+    if (moves && grid_.steps.back() != static_cast<std::int64_t>(grid_.steps.size()) - 1) {
+      fail_import(body.name(), "a body that moves needs frames that are evenly spaced: give --fps");
+    }
+    const std::string file = moves ? fmt::format("{{ file = \"{}-{{frame:06}}.obj\", fps = {} }}", name, 1 / grid_.step)
+                                   : fmt::format("\"{}-000000.obj\"", name);
+    text_ += fmt::format("\n[[effects.body]]\nfile = {}\nthickness = 1e-9\nallow_overlap = true\n", file);
+  }
+
+  [[nodiscard]] int bodies() const { return bodies_; }
+  [[nodiscard]] Scene load() const {
+    const fs::path file = folder_ / "imported.toml";
+    write_file_atomically(file, text_);
+    return load_scene(file);
+  }
+
+ private:
+  void add_sphere(const std::vector<std::vector<Eigen::Vector4d>>& spheres, std::size_t k) {
+    const Eigen::Vector4d& first = spheres.front()[k];
+    bool moves = false;
+    std::string keyframes;
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      const Eigen::Vector4d& s = spheres[i].at(k);
+      moves = moves || s != first;
+      keyframes += fmt::format("{}{{ time = {}, center = [{}, {}, {}] }}", i > 0 ? ", " : "",
+                               static_cast<double>(grid_.steps[i]) * grid_.step, s[0], s[1], s[2]);
+    }
+    text_ += fmt::format("\n[[effects.sphere]]\nradius = {}\nscale = 1\nstiffness = 0\n", first[3]);
+    if (moves) {
+      text_ += fmt::format("keyframes = [{}]\n", keyframes);
+    } else {
+      text_ += fmt::format("center = [{}, {}, {}]\n", first[0], first[1], first[2]);
+    }
+  }
+
+  const fs::path& folder_;
+  const TimeGrid& grid_;
+  std::string text_;
+  int bodies_ = 0;
+};
+
+/// Iterator over a motion's moments with velocities: those of its files, or central differences.
+class VelocityEstimator {
+ public:
+  VelocityEstimator(MotionSource& source, const TimeGrid& grid) : source_(source), grid_(grid) {
+    after_ = source.moment(0);
+  }
+
+  /// Returns the next moment.
+  ImportedMoment next() {
+    before_ = std::move(now_.x);
+    now_ = std::move(after_);
+    const bool last = ++index_ == source_.count();
+    if (!last) after_ = source_.moment(index_);
+    ImportedMoment moment = now_;
+    if (moment.v.rows() == moment.x.rows()) return moment;
+    const std::size_t i = index_ - 1, from = i == 0 ? 0 : i - 1, to = last ? i : i + 1;
+    const auto steps = static_cast<double>(grid_.steps[to] - grid_.steps[from]);
+    if (steps == 0) {
+      moment.v = Vertices::Zero(moment.x.rows(), 3);
+    } else {
+      moment.v = ((last ? now_.x : after_.x) - (i == 0 ? now_.x : before_)) / (steps * grid_.step);
+    }
+    return moment;
+  }
+
+ private:
+  MotionSource& source_;
+  const TimeGrid& grid_;
+  Vertices before_;
+  ImportedMoment now_, after_;
+  std::size_t index_ = 0;  // of after_
+};
+
+std::uint64_t write(const fs::path& file, const Scene& scene, MotionSource& cloth, const TimeGrid& grid,
+                    const std::stop_token& stop, Progress& progress) {
+  const System system = make_system(scene.simulation);
+  const std::int64_t last = grid.steps.back();
+  const bool whole = last + 1 == static_cast<std::int64_t>(grid.steps.size());
+  MotionHeader header;
+  header.steps = last;
+  header.recorded.every = whole ? std::optional<std::int64_t>(1) : std::nullopt;
+  header.colliders = collider_kinds(system.colliders_at(0));
+  header.imported = true;
+  MotionFileWriter writer(file, header, scene);
+  try {
+    VelocityEstimator moments(cloth, grid);
+    std::int64_t step = 0;
+    for (const std::int64_t own : grid.steps) {
+      if (stop.stop_requested()) throw Interrupted();
+      ImportedMoment moment = moments.next();
+      for (; step <= own; ++step) {
+        StepRow row;
+        row.step = step;
+        row.energies = moment.energies.value_or(Energies{});
+        row.colliders = system.colliders_at(static_cast<double>(step) * grid.step);
+        writer.add(row);
+      }
+      writer.add(State{.x = std::move(moment.x), .v = std::move(moment.v), .step = own});
+      ++progress.done;
+    }
+    return writer.finish();
+  } catch (...) {
+    writer.discard();
+    throw;
+  }
+}
+
+/// Opens a motion or a body, converted to metres with z up.
+std::unique_ptr<MotionSource> open_upright(const std::string& file, const std::string& mesh, const std::string& prim,
+                                           const ImportAxes& axes) {
+  const std::string ending = lower_ending(file);
+  if (axes.y_up && (ending == ".usda" || ending == ".usd")) {
+    fail_import(file, "a USD file says itself which axis is up: omit --up");
+  }
+  return with_axes(open_motion_source(file, mesh, prim), axes);
+}
+
+/// Loads the scene; problems name the cloth's file.
+Scene load_scene_of(const ImportedScene& text, const MotionSource& cloth, const fs::path& folder) {
+  try {
+    return text.load();
+  } catch (const UsageError& error) {
+    std::string message = error.what();
+    const std::string before = folder.string() + "/";
+    for (std::size_t at = 0; (at = message.find(before, at)) != std::string::npos;) message.erase(at, before.size());
+    fail_import(cloth.name(), "it cannot be drawn: " + message.substr(0, message.find('\n')));
+  }
+}
+
+}  // namespace
+
+ImportedMotion import_motion(const ImportOptions& options, const fs::path& file, const std::stop_token& stop,
+                             Progress& progress) {
+  std::vector<std::unique_ptr<MotionSource>> parts;
+  for (const std::string& cloth : options.cloths) {
+    parts.push_back(open_upright(cloth, options.mesh, options.prim, options.axes));
+  }
+  const std::unique_ptr<MotionSource> cloth = joined(std::move(parts));
+  if (cloth->mesh().triangles.empty()) fail_import(cloth->name(), "there is no face in it");
+  const TimeGrid grid = make_time_grid(cloth->name(), cloth->count(), cloth->times(), options.fps, cloth->fps());
+  const TemporaryFolder folder("drape-import");
+  ImportedScene text(folder.path(), grid);
+  text.add_cloth(*cloth);
+  text.add(cloth->colliders());
+  for (const std::string& body : options.bodies) {
+    text.add_body(*open_upright(body, {}, {}, options.axes));
+  }
+  Scene scene = load_scene_of(text, *cloth, folder.path());
+  scene.name = file.stem().string();
+  progress.begin("importing", "frames", static_cast<std::int64_t>(cloth->count()));
+  ImportedMotion result{.frames = static_cast<std::int64_t>(cloth->count()),
+                        .step = grid.step,
+                        .vertices = static_cast<int>(cloth->mesh().positions.rows()),
+                        .triangles = static_cast<int>(cloth->mesh().triangles.size()),
+                        .bodies = text.bodies()};
+  result.size = write(file, scene, *cloth, grid, stop, progress);
+  return result;
+}
+
+}  // namespace drape

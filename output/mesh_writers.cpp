@@ -1,0 +1,243 @@
+#include "output/mesh_writers.hpp"
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include "core/rotation.hpp"
+#include "output/sink.hpp"
+#include "output/vtk_writer.hpp"
+
+namespace drape {
+namespace {
+
+constexpr int around = 48, from_pole_to_pole = 24;
+
+/// Appends points and returns the index of the first.
+int append(Surface& surface, const Vertices& points) {
+  const Eigen::Index first = surface.positions.rows();
+  surface.positions.conservativeResize(first + points.rows(), 3);
+  surface.positions.bottomRows(points.rows()) = points;
+  return static_cast<int>(first);
+}
+
+void append(Surface& surface, const SphereShape& sphere) {
+  constexpr int rings = from_pole_to_pole - 1;
+  constexpr Eigen::Index poles = Eigen::Index{rings} * around;  // index of the first pole
+  Vertices points(poles + 2, 3);
+  for (int i = 0; i < rings; ++i) {
+    const double polar = std::numbers::pi * (i + 1) / from_pole_to_pole;
+    for (int j = 0; j < around; ++j) {
+      const double azimuth = 2 * std::numbers::pi * j / around;
+      points.row(i * around + j) << std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+          std::cos(polar);
+    }
+  }
+  points.row(poles) << 0, 0, 1;
+  points.row(poles + 1) << 0, 0, -1;
+  points = (sphere.radius * points).rowwise() + sphere.center.transpose();
+
+  const int first = append(surface, points), north = first + rings * around, south = north + 1;
+  for (int j = 0; j < around; ++j) {
+    const int next = (j + 1) % around;
+    for (int i = 0; i + 1 < rings; ++i) {
+      const int a = first + i * around + j, b = first + i * around + next;
+      surface.triangles.push_back({a, a + around, b + around});
+      surface.triangles.push_back({a, b + around, b});
+    }
+    surface.triangles.push_back({north, first + j, first + next});
+    surface.triangles.push_back({south, first + (rings - 1) * around + next, first + (rings - 1) * around + j});
+  }
+}
+
+}  // namespace
+
+GroundPatch ground_patch(const Vertices& cloth) {
+  if (cloth.rows() == 0) return {};
+  const Eigen::RowVector3d low = cloth.colwise().minCoeff(), high = cloth.colwise().maxCoeff();
+  return {.middle = (low + high) / 2, .side = 4 * (high - low).maxCoeff()};
+}
+
+Vertices ground_corners(const GroundShape& ground, const GroundPatch& patch) {
+  const Eigen::Vector3d& n = ground.normal;
+  const Eigen::Vector3d middle = patch.middle + (ground.height - n.dot(patch.middle)) * n;
+  // The sides of a level ground are along x and y.
+  const Eigen::Quaterniond turn = rotation_from_z(n);
+  const Eigen::Vector3d x = patch.side / 2 * (turn * Eigen::Vector3d::UnitX()),
+                        y = patch.side / 2 * (turn * Eigen::Vector3d::UnitY());
+  Vertices corners(4, 3);
+  corners << (middle - x - y).transpose(), (middle + x - y).transpose(), (middle + x + y).transpose(),
+      (middle - x + y).transpose();
+  return corners;
+}
+
+Surface surface_of(const std::vector<Collider>& colliders, const GroundPatch& patch) {
+  Surface surface{.positions = Vertices(0, 3), .triangles = {}};
+  for (const Collider& collider : colliders) {
+    if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
+      append(surface, *sphere);
+    } else if (const auto* ground = std::get_if<GroundShape>(&collider)) {
+      const int first = append(surface, ground_corners(*ground, patch));
+      surface.triangles.push_back({first, first + 1, first + 2});
+      surface.triangles.push_back({first, first + 2, first + 3});
+    } else if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
+      const int first = append(surface, mesh->positions);
+      for (const auto& [a, b, c] : *mesh->triangles) surface.triangles.push_back({first + a, first + b, first + c});
+    }
+  }
+  return surface;
+}
+
+int frame_digits(const FilmInfo& film) {
+  return static_cast<int>(std::to_string(film.first_frame + std::max(1, film.expected_frames) - 1).size());
+}
+
+std::string file_beside(const std::filesystem::path& file, const char* beside, const FilmInfo& film, int frame) {
+  return (file.parent_path() / file.stem()).string() + PathTemplate(beside).path(film.scene, frame, frame_digits(film));
+}
+
+namespace {
+
+/// Returns the lines that all frames share: vt and f.
+std::string surface_lines(const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs) {
+  std::string coordinates, faces;
+  std::map<std::array<float, 2>, std::size_t> numbers;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    faces += 'f';
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      fmt::format_to(std::back_inserter(faces), " {}", triangles[t][corner] + 1);
+      if (uvs.empty()) continue;
+      const std::array<float, 2>& uv = uvs[3 * t + corner];
+      const auto [at, is_new] = numbers.emplace(uv, numbers.size() + 1);
+      if (is_new) fmt::format_to(std::back_inserter(coordinates), "vt {:.9g} {:.9g}\n", uv[0], uv[1]);
+      fmt::format_to(std::back_inserter(faces), "/{}", at->second);
+    }
+    faces += '\n';
+  }
+  return coordinates + faces;
+}
+
+void append_vertices(const Vertices& positions, std::string& text) {
+  for (const auto& x : positions.rowwise()) {
+    fmt::format_to(std::back_inserter(text), "v {:.9g} {:.9g} {:.9g}\n", x[0], x[1], x[2]);
+  }
+}
+
+/// Appends spheres and bodies as objects, after `before` vertices.
+void append_objects(const std::vector<Collider>& colliders, Eigen::Index before, std::string& text) {
+  int spheres = 0, bodies = 0;
+  for (const Collider& collider : colliders) {
+    if (std::holds_alternative<GroundShape>(collider)) continue;
+    const bool ball = std::holds_alternative<SphereShape>(collider);
+    const Surface surface = surface_of({collider}, {});
+    fmt::format_to(std::back_inserter(text), "o {}{}\n", ball ? "sphere" : "body", ball ? ++spheres : ++bodies);
+    append_vertices(surface.positions, text);
+    for (const auto& [a, b, c] : surface.triangles) {
+      fmt::format_to(std::back_inserter(text), "f {} {} {}\n", before + a + 1, before + b + 1, before + c + 1);
+    }
+    before += surface.positions.rows();
+  }
+}
+
+std::function<std::string(const Frame&)> make_writer(const FilmInfo& film, bool with_objects) {
+  const std::string surface = surface_lines(film.triangles(), film.texture_coordinates());
+  return [surface, with_objects](const Frame& frame) {
+    std::string text = fmt::format("# drape: frame {} at {:.9g} s, in metres, z up\n", frame.index, frame.time);
+    const auto is_ground = [](const Collider& collider) { return std::holds_alternative<GroundShape>(collider); };
+    const bool objects = with_objects && !std::ranges::all_of(frame.colliders, is_ground);
+    if (objects) text += "o cloth\n";
+    append_vertices(frame.positions, text);
+    text += surface;
+    if (objects) append_objects(frame.colliders, frame.positions.rows(), text);
+    return text;
+  };
+}
+
+}  // namespace
+
+std::function<std::string(const Frame&)> obj_writer(const FilmInfo& film) { return make_writer(film, true); }
+std::function<std::string(const Frame&)> cloth_obj_writer(const FilmInfo& film) { return make_writer(film, false); }
+
+OutputFormat obj_format() {
+  return {.extension = ".obj",
+          .help = "the cloth as a Wavefront mesh [m, z up], with spheres and bodies as objects, without the ground",
+          .made_by = {},
+          .packages = {},
+          .make = FrameMaker<Frame>(obj_writer)};
+}
+
+std::function<std::string(const Frame&)> ply_writer(const FilmInfo& film) {
+  std::string faces;
+  for (const Triangle& triangle : film.triangles()) {
+    append_number<std::uint8_t>(faces, 3);
+    for (const int vertex : triangle) append_number<std::int32_t>(faces, vertex);
+  }
+  return [faces, count = film.triangles().size()](const Frame& frame) {
+    return fmt::format(
+               "ply\nformat binary_little_endian 1.0\ncomment drape: frame {} at {:.9g} s, in metres, z up\n"
+               "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+               "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+               frame.index, frame.time, frame.positions.rows(), count) +
+           vertex_bytes<double>(frame.positions) + faces;
+  };
+}
+
+OutputFormat ply_format() {
+  return {.extension = ".ply",
+          .help = "the cloth as a binary PLY mesh [m, z up]",
+          .made_by = {},
+          .packages = {},
+          .make = FrameMaker<Frame>(ply_writer)};
+}
+
+Pc2Writer::Pc2Writer(const std::filesystem::path& file, const FilmInfo& film)
+    : expected_(film.expected_frames),
+      file_(file),
+      mesh_(file_beside(file, first_mesh, film, film.first_frame)),
+      mesh_text_(cloth_obj_writer(film)) {}
+
+std::string Pc2Writer::header(Eigen::Index points, int samples) const {
+  std::string bytes("POINTCACHE2\0", 12);
+  append_number<std::int32_t>(bytes, 1);  // version of the format
+  append_number<std::int32_t>(bytes, static_cast<std::int32_t>(points));
+  append_number<float>(bytes, 0);  // frame of the first sample
+  append_number<float>(bytes, 1);  // frames per sample
+  append_number<std::int32_t>(bytes, samples);
+  return bytes;
+}
+
+void Pc2Writer::add(const Frame& frame) {
+  if (samples_++ == 0) {
+    points_ = frame.positions.rows();
+    mesh_.write(mesh_text_(frame));
+    file_.write(header(points_, expected_));
+  }
+  file_.write(vertex_bytes<float>(frame.positions));
+}
+
+std::vector<OutputFile> Pc2Writer::finish(Ending ending) {
+  if (samples_ == 0) return {};
+  if (samples_ != expected_) file_.overwrite(0, header(points_, samples_));
+  const std::uintmax_t mesh_size = mesh_.commit(ending), size = file_.commit(ending);
+  return {{file_.name(ending), size}, {mesh_.name(ending), mesh_size}};
+}
+
+OutputFormat pc2_format() {
+  return {.extension = ".pc2",
+          .help = "the motion as a point cache for Blender's Mesh Cache [m, z up], plus an .obj",
+          .made_by = {},
+          .packages = {},
+          .make = FilmMaker<Frame>([](const std::filesystem::path& file, const FilmInfo& film) {
+            return std::make_unique<Pc2Writer>(file, film);
+          }),
+          .beside = {first_mesh}};
+}
+
+}  // namespace drape

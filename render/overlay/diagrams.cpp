@@ -1,0 +1,160 @@
+#include "render/overlay/diagrams.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "render/overlay/color_scale.hpp"
+
+namespace drape {
+
+namespace {
+
+/// Returns the largest 1, 2 or 5 times a power of ten up to a positive number.
+double round_down(double number) {
+  const double power = std::pow(10.0, std::floor(std::log10(number) + 1e-9));
+  for (const double factor : {5.0, 2.0}) {
+    if (number >= factor * power * (1 - 1e-9)) return factor * power;
+  }
+  return power;
+}
+
+}  // namespace
+
+double round_up(double number) {
+  const double power = std::pow(10.0, std::floor(std::log10(number)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (number <= factor * power * (1 + 1e-9)) return factor * power;
+  }
+  return 10 * power;
+}
+
+std::vector<Tick> ticks(double from, double to, int about) {
+  if (!(to > from)) return {{from, fmt::format("{:g}", from)}};
+  const double step = round_down((to - from) / about);
+  std::vector<Tick> marks;
+  for (double k = std::ceil(from / step - 1e-9); k * step <= to + 1e-9 * step; ++k) {
+    const double value = k == 0 ? 0 : k * step;  // avoids -0
+    marks.push_back({value, fmt::format("{:g}", value)});
+  }
+  return marks;
+}
+
+std::vector<Tick> thinned(const std::vector<Tick>& marks, const LabelColumns& columns, int gap) {
+  for (double every = 1; every < static_cast<double>(marks.size()); every = round_up(1.5 * every)) {
+    std::vector<Tick> kept;
+    for (std::size_t i = 0; i < marks.size(); i += static_cast<std::size_t>(every)) kept.push_back(marks[i]);
+    const auto touch = [&](const Tick& a, const Tick& b) { return columns(b).first < columns(a).second + gap; };
+    if (std::ranges::adjacent_find(kept, touch) == kept.end()) return kept;
+  }
+  return {marks.begin(), marks.begin() + std::min<std::ptrdiff_t>(1, std::ssize(marks))};
+}
+
+int color_bar_height(int size) { return 2 * Pen::line_height(size) + 2 * size; }
+
+Image color_bar(Pen& pen, int width, int size, const std::string& title, const std::vector<Tick>& marks) {
+  Image band(width, color_bar_height(size));
+  Pen::fill(band, {0, 0, band.width, band.height}, band_paper);
+  const int margin = std::min(2 * size, width / 6), base = size + size / 4;
+  pen.write(band, margin, base, title, size, band_ink);
+  const PictureBox bar{margin, base + size / 2, width - 2 * margin, size};
+  for (int x = 0; x < bar.width; ++x) {
+    Pen::fill(band, {bar.left + x, bar.top, 1, bar.height},
+              viridis(static_cast<double>(x) / std::max(1, bar.width - 1)));
+  }
+  const auto column = [&](const Tick& mark) {
+    return bar.left + static_cast<int>(std::lround(mark.value * (bar.width - 1)));
+  };
+  const LabelColumns label = [&](const Tick& mark) {
+    const int taken = pen.width(mark.label, size);
+    const int left = std::clamp(column(mark) - taken / 2, 0, std::max(0, width - taken));
+    return std::pair{left, left + taken};
+  };
+  for (const Tick& mark : thinned(marks, label, size / 2)) {
+    Pen::fill(band, {column(mark), bar.bottom(), 1, std::max(2, size / 4)}, band_ink);
+    pen.write(band, label(mark).first, bar.bottom() + size + size / 3, mark.label, size, band_ink);
+  }
+  return band;
+}
+
+namespace {
+
+const Rgb rule{0.86, 0.86, 0.86};
+
+}  // namespace
+
+CurveBand::CurveBand(int width, int size, std::string unit, std::vector<double> times, std::vector<Curve> curves)
+    : width_(width), size_(size), unit_(std::move(unit)), times_(std::move(times)), curves_(std::move(curves)) {
+  for (const Curve& curve : curves_) {
+    for (const double value : curve.values) {
+      lowest_ = std::min(lowest_, value);
+      highest_ = std::max(highest_, value);
+    }
+  }
+  if (highest_ == lowest_) highest_ = lowest_ + 1;
+}
+
+void CurveBand::draw_axes(Pen& pen, Image& band, const PictureBox& area) const {
+  for (const Tick& mark : ticks(lowest_, highest_, 3)) {
+    const double y = area.bottom() - (mark.value - lowest_) / (highest_ - lowest_) * area.height;
+    const int row = static_cast<int>(std::lround(y));
+    Pen::fill(band, {area.left, row, area.width, 1}, mark.value == 0 ? band_ink : rule);
+    pen.write(band, area.left - size_ / 2 - pen.width(mark.label, size_), row + size_ / 3, mark.label, size_, band_ink);
+  }
+  const double end = times_.back() - times_.front();
+  const auto column = [&](const Tick& mark) {
+    const double along = end > 0 ? (mark.value - times_.front()) / end : 0;
+    return area.left + static_cast<int>(std::lround(along * (area.width - 1)));
+  };
+  const LabelColumns label = [&](const Tick& mark) {
+    const int width = pen.width(mark.label + " s", size_);
+    const int left = std::clamp(column(mark) - width / 2, 0, std::max(0, width_ - width));
+    return std::pair{left, left + width};
+  };
+  const std::vector<Tick> marks = ticks(times_.front(), times_.back(), std::clamp(area.width / (5 * size_), 2, 10));
+  for (const Tick& mark : thinned(marks, label, size_ / 2)) {
+    Pen::fill(band, {column(mark), area.bottom(), 1, std::max(2, size_ / 4)}, band_ink);
+    pen.write(band, label(mark).first, area.bottom() + size_ + size_ / 3, mark.label + " s", size_, band_ink);
+  }
+}
+
+void CurveBand::draw_legend(Pen& pen, Image& band, int left) const {
+  const int base = size_ + size_ / 3;
+  const std::string unit = "[" + unit_ + "]";
+  int at = left;
+  for (const Curve& curve : curves_) {
+    Pen::fill(band, {at, base - size_ / 2, size_, std::max(2, size_ / 5)}, curve.color);
+    pen.write(band, at + size_ + size_ / 3, base, curve.name, size_, band_ink);
+    at += size_ + size_ / 3 + pen.width(curve.name, size_) + size_;
+  }
+  pen.write(band, at - size_ / 2, base, unit, size_, band_ink);
+}
+
+Image CurveBand::draw(Pen& pen, double time) const {
+  Image band(width_, height(size_));
+  Pen::fill(band, {0, 0, band.width, band.height}, band_paper);
+  int labels = 0;  // greatest width of the vertical axis' labels
+  for (const Tick& mark : ticks(lowest_, highest_, 3)) labels = std::max(labels, pen.width(mark.label, size_));
+  const int left = labels + size_, top = 2 * size_ + size_ / 4;
+  const PictureBox area{left, top, std::max(1, width_ - left - size_), band.height - top - 2 * size_};
+  draw_axes(pen, band, area);
+  draw_legend(pen, band, left);
+  const double end = times_.back() - times_.front();
+  const auto x = [&](double t) { return area.left + (end > 0 ? (t - times_.front()) / end : 0) * (area.width - 1); };
+  const auto y = [&](double v) { return area.bottom() - (v - lowest_) / (highest_ - lowest_) * area.height; };
+  const double stroke = std::max(1.5, size_ / 7.0);
+  const auto shown = static_cast<std::size_t>(
+      std::upper_bound(times_.begin(), times_.end(), time + 1e-9 * std::max(1.0, std::abs(time))) - times_.begin());
+  for (const Curve& curve : curves_) {
+    for (std::size_t i = 1; i < shown; ++i) {
+      Pen::line(band, x(times_[i - 1]), y(curve.values[i - 1]), x(times_[i]), y(curve.values[i]), stroke, curve.color);
+    }
+    if (shown == 0) continue;
+    const double at = x(times_[shown - 1]), level = y(curve.values[shown - 1]);
+    Pen::line(band, at, level, at, level, 3 * stroke, curve.color);
+  }
+  return band;
+}
+
+}  // namespace drape

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/page.hpp"
+
+namespace drape::html {
+
+/// A line of a legend.
+struct LegendEntry {
+  std::string style;  ///< class of the key
+  Markup key;         ///< SVG around the origin, 24 wide and 14 high
+  std::string label;
+};
+
+/// A drawing and its texts, which pages and files lay out differently.
+struct Diagram {
+  std::string title;    ///< description in a sentence, also for screen readers
+  std::string y_title;  ///< title of the vertical axis, above it
+  std::vector<LegendEntry> legend;
+  double width = 0, height = 0;  ///< size of the drawing [CSS pixels]
+  Markup drawing;                ///< SVG
+};
+
+/// Returns the drawing alone, inline in a page; it scales with the page.
+/// @param more attributes of the svg element
+Markup inline_svg(const Diagram& diagram, const Attributes& more = {});
+
+/// Returns the legend for a page; empty without entries.
+Markup legend(const std::vector<LegendEntry>& entries);
+
+/// Returns a complete SVG document with title, legend, axes and style: light, on white, in the reader's sans-serif
+/// font.
+std::string svg_file(const Diagram& diagram);
+
+/// Returns the number of letters in a UTF-8 text.
+double letters(std::string_view text);
+
+/// Formats a number for a drawing.
+std::string coordinate(double value);
+/// @param anchor "start", "middle" or "end"
+Markup svg_text(double x, double y, const std::string& anchor, const std::string& text, const Attributes& more = {});
+Markup svg_line(const std::string& style, double x1, double y1, double x2, double y2);
+
+}  // namespace drape::html

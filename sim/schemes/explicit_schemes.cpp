@@ -1,0 +1,114 @@
+#include "sim/schemes/explicit_schemes.hpp"
+
+#include "sim/parallel/vectors.hpp"
+
+namespace drape {
+
+Eigen::VectorXd explicit_pull(const System& system) {
+  Eigen::VectorXd pull = -system.step * system.cloth.masses.cwiseInverse();
+  for (const int pin : system.cloth.pins) pull[pin] = 0;
+  return pull;
+}
+
+const Vertices& with_energies(const System& system, const Vertices& x, double time, const Vertices& force,
+                              Vertices& scratch) {
+  if (system.energies.empty()) return force;
+  scratch.setZero(force.rows(), 3);
+  for (const auto& energy : system.energies) energy->add_gradient(x, time, scratch);
+  scratch = force - scratch;
+  return scratch;
+}
+
+SemiImplicitEuler::SemiImplicitEuler(const System& system)
+    : system_(system),
+      springs_(system.springs, system.cloth.vertex_count(), system.threads),
+      pull_(explicit_pull(system)) {
+  if (!system.fields.empty()) fields_.emplace(system);
+}
+
+StepReport SemiImplicitEuler::advance(State& state, StepForces& forces) {
+  system_.begin(state);
+  const double start = system_.time(state.step);
+  const Vertices& force = with_energies(system_, state.x, start, forces.all(state, start), force_);
+  // Do both updates in one pass if nothing changes the velocity in between.
+  const bool at_once =
+      !fields_ && system_.corrections.empty() && system_.filters.empty() && system_.pin_motions.empty();
+  if (fields_) before_ = state.v;
+  springs_.kick_and_drift(pull_, force, at_once ? system_.step : 0, state.v, state.x);
+  StepReport report;
+  if (at_once) return report;
+  if (fields_) {
+    report.converged = fields_->kick(state.x, start, before_, state.v);
+    forces.note(fields_->force());
+  }
+  system_.correct(state);
+  system_.move(state, nullptr);
+  return report;
+}
+
+Verlet::Verlet(const System& system)
+    : system_(system),
+      springs_(system.springs, system.cloth.vertex_count(), system.threads),
+      pull_(explicit_pull(system)) {
+  if (!system.fields.empty()) fields_.emplace(system);
+}
+
+StepReport Verlet::advance(State& state, StepForces& forces) {
+  const double half = system_.step / 2;
+  const double middle = system_.time(state.step) + half, end = system_.time(state.step + 1);
+  const auto drift = [&] { add_multiple(system_.threads, half, state.v, state.x); };
+  const bool velocity_forces = fields_ || forces.any_of_velocity();
+  StepReport report;
+  const bool at_once = !velocity_forces && system_.filters.empty() && system_.pin_motions.empty();
+  system_.begin(state);
+  system_.correct_half(state);
+  if (!system_.filters.empty()) start_x_ = state.x;
+  if (velocity_forces) start_v_ = state.v;
+  drift();
+  system_.place_pins(middle, state.x);
+  const Vertices& push = forces.position_forces(state, middle);
+  const Vertices& force = with_energies(system_, state.x, middle, push, force_);
+  springs_.kick_and_drift(pull_, force, at_once ? half : 0, state.v, state.x);
+  if (!at_once) {
+    if (velocity_forces) report.converged = kick_of_velocity(state, middle, forces);
+    drift();
+    system_.place_pins(end, state.x);
+    if (!system_.filters.empty()) {
+      std::swap(state.x, start_x_);
+      system_.move(state, start_x_, way_);
+    }
+  }
+  system_.correct_half(state);
+  system_.drive_pins(end, state.v);
+  return report;
+}
+
+bool Verlet::kick_of_velocity(State& state, double time, StepForces& forces) {
+  const bool others = forces.any_of_velocity();
+  if (!fields_) {
+    add_of_velocity(state, time, forces);
+    return true;
+  }
+  before_ = start_v_;
+  bool found = fields_->kick(state.x, time, before_, state.v);
+  if (others) {
+    // Fields and other forces depend on each other. For second order each needs only an estimate of the other.
+    add_of_velocity(state, time, forces);
+    state.v += pull_.asDiagonal() * fields_->force();
+    found = fields_->kick(state.x, time, before_, state.v);
+  }
+  forces.note(fields_->force());
+  return found;
+}
+
+void Verlet::add_of_velocity(State& state, double time, StepForces& forces) {
+  std::swap(state.v, start_v_);
+  forces.velocity_forces(state, time, force_);
+  state.v = start_v_ - pull_.asDiagonal() * force_;
+  forces.velocity_forces(state, time, more_force_);
+  force_ = (force_ + more_force_) / 2;
+  state.v = start_v_ - pull_.asDiagonal() * force_;
+  forces.note(force_);
+}
+
+}  // namespace drape

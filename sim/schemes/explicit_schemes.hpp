@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+
+#include "sim/schemes/field_solve.hpp"
+#include "sim/schemes/scheme.hpp"
+#include "sim/spring_network.hpp"
+#include "sim/system.hpp"
+
+namespace drape {
+
+/// Helpers of the explicit schemes.
+
+/// Returns −h/m of each vertex, 0 on pins [s/kg]: the change of velocity in a step per unit of gradient.
+Eigen::VectorXd explicit_pull(const System& system);
+
+/// Returns `force` plus the forces of the energies at x and a time [N].
+/// @param scratch holds the sum if there are energies
+const Vertices& with_energies(const System& system, const Vertices& x, double time, const Vertices& force,
+                              Vertices& scratch);
+
+/// Symplectic (semi-implicit) Euler: v += h·a(x), velocity fields by FieldKick, the corrections, x += h·v.
+class SemiImplicitEuler final : public Scheme {
+ public:
+  /// @throws UsageError if the system has energies that only implicit methods support
+  explicit SemiImplicitEuler(const System& system);
+  StepReport advance(State& state, StepForces& forces) override;
+
+ private:
+  const System& system_;
+  SpringNetwork springs_;
+  Eigen::VectorXd pull_;  // −h/m of each vertex, 0 on pins [s/kg]
+  Vertices force_;        // plus those of energies; empty without [N]
+  Vertices before_;       // velocities before the kick, if there are fields [m/s]
+  std::optional<FieldKick> fields_;
+};
+
+/// Velocity Verlet in its position form: x += h/2·v, v += h·a(x), x += h/2·v. Like the form with half kicks it is
+/// symplectic, reversible and of second order. Both give the same motion except for half a step of drift at either end
+/// (measured errors differ by at most 7%). This form evaluates the forces once per step and keeps none from the last
+/// step. So a step depends only on the state, and positions and velocities both belong to its end.
+///
+/// Forces that depend on the position are evaluated at mid-step. Those that depend on velocities (air) are averaged
+/// there over the initial velocities and the resulting final ones. With the kick this is the two-stage Runge-Kutta
+/// method that averages Euler steps (Shu and Osher 1988): if none of these adds energy, it adds none. Velocity fields
+/// use the implicit midpoint rule, see FieldKick. Corrections are applied in two halves. All of this has second order.
+/// Filters do not: their change of the path is an impulse at an unknown time within the step.
+class Verlet final : public Scheme {
+ public:
+  /// @throws UsageError if the system has energies that only implicit methods support
+  explicit Verlet(const System& system);
+  StepReport advance(State& state, StepForces& forces) override;
+
+ private:
+  /// Adds the effect of velocity-dependent forces to the velocities, which were start_v_ before the kick. Returns true
+  /// if the solve for velocity fields converged.
+  bool kick_of_velocity(State& state, double time, StepForces& forces);
+  /// Adds the part of the explicitly evaluated ones.
+  void add_of_velocity(State& state, double time, StepForces& forces);
+
+  const System& system_;
+  SpringNetwork springs_;
+  Eigen::VectorXd pull_;  // −h/m of each vertex, 0 on pins [s/kg]
+  Vertices start_x_, start_v_, way_;
+  Vertices force_, more_force_;  // [N]
+  Vertices before_;              // velocities before the kick [m/s]
+  std::optional<FieldKick> fields_;
+};
+
+}  // namespace drape
