@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape::audit {
 

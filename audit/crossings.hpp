@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape::audit {
 

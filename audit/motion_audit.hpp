@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "audit/crossings.hpp"
-#include "sim/mesh.hpp"
-#include "sim/state.hpp"
+#include "drape/sim/mesh.hpp"
+#include "drape/sim/state.hpp"
 
 namespace drape::audit {
 

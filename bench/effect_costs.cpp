@@ -6,15 +6,15 @@
 
 #include "bench/moving_cloth.hpp"
 #include "bench/ratio_table.hpp"
-#include "sim/effects/bending.hpp"
-#include "sim/effects/body.hpp"
-#include "sim/effects/gravity.hpp"
-#include "sim/effects/ground.hpp"
-#include "sim/effects/self_collision.hpp"
-#include "sim/effects/sphere.hpp"
-#include "sim/effects/strain_limit.hpp"
-#include "sim/effects/wind.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/bending.hpp"
+#include "drape/sim/effects/body.hpp"
+#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/self_collision.hpp"
+#include "drape/sim/effects/sphere.hpp"
+#include "drape/sim/effects/strain_limit.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
 
 namespace drape {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sim/cloth.hpp"
-#include "sim/effects/body.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/effects/body.hpp"
 
 namespace drape {
 

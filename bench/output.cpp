@@ -10,11 +10,11 @@
 
 #include "bench/ratio_table.hpp"
 #include "core/files.hpp"
+#include "drape/render/renderer.hpp"
+#include "drape/scene/scene.hpp"
 #include "output/gif_encoder.hpp"
-#include "render/renderer.hpp"
 #include "run/frame_source.hpp"
 #include "run/run_scene.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/image.hpp"
+#include "drape/render/image.hpp"
 
 namespace drape {
 

@@ -14,8 +14,8 @@
 #include "bench/ratio_table.hpp"
 #include "bench/textbook.hpp"
 #include "bench/time_schemes.hpp"
-#include "sim/effects/gravity.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/simulation.hpp"
 
 namespace drape {
 namespace {

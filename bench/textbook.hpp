@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/cloth.hpp"
+#include "drape/sim/cloth.hpp"
 
 /// Plain implementations of the three methods from their formulas, with general-purpose matrices: the reference that
 /// drape's solvers are measured against, and an independent check of their results.

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "bench/moving_cloth.hpp"
-#include "sim/effects/gravity.hpp"
-#include "sim/effects/self_collision.hpp"
+#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/self_collision.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/parallel/vectors.hpp"
-#include "sim/simulation.hpp"
 
 namespace drape {
 namespace {

@@ -10,12 +10,12 @@
 #include "bench/moving_cloth.hpp"
 #include "bench/ratio_table.hpp"
 #include "bench/textbook.hpp"
-#include "sim/effects/damping.hpp"
-#include "sim/effects/gravity.hpp"
-#include "sim/effects/sphere.hpp"
+#include "drape/sim/effects/damping.hpp"
+#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/sphere.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/linear/multifrontal_cholesky.hpp"
 #include "sim/linear/sparse_cholesky.hpp"
-#include "sim/simulation.hpp"
 
 namespace drape {
 namespace {

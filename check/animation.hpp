@@ -6,9 +6,9 @@
 #include "check/compare_motion.hpp"
 #include "check/golden.hpp"
 #include "check/report.hpp"
-#include "render/settings.hpp"
+#include "drape/render/settings.hpp"
+#include "drape/scene/scene.hpp"
 #include "reports/players.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

@@ -9,11 +9,11 @@
 #include "check/golden.hpp"
 #include "check/manifest.hpp"
 #include "check/picture.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/hash.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "scene/motion_scene.hpp"
 
 namespace drape {

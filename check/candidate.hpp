@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "check/golden.hpp"
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 
 namespace drape {
 

@@ -16,12 +16,12 @@
 #include "check/name_difference.hpp"
 #include "check/picture.hpp"
 #include "check/step_time.hpp"
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/settings.hpp"
 #include "run/outputs.hpp"
 #include "scene/motion_scene.hpp"
-#include "scene/scene.hpp"
-#include "sim/settings.hpp"
 
 namespace drape {
 namespace {

@@ -8,10 +8,10 @@
 #include "check/compare_motion.hpp"
 #include "check/golden.hpp"
 #include "check/report.hpp"
-#include "core/error.hpp"
-#include "render/settings.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/settings.hpp"
+#include "drape/scene/scene.hpp"
 #include "run/progress.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

@@ -11,10 +11,10 @@
 
 #include "check/golden.hpp"
 #include "check/golden_motion.hpp"
-#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
-#include "render/view.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/view.hpp"
 #include "run/frame_source.hpp"
 #include "run/run_scene.hpp"
 

@@ -11,11 +11,11 @@
 #include "check/golden.hpp"
 #include "check/name_difference.hpp"
 #include "check/report.hpp"
+#include "drape/scene/scene.hpp"
 #include "motion/reader.hpp"
 #include "motion/vertex_order.hpp"
 #include "run/progress.hpp"
 #include "run/statistics.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

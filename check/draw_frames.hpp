@@ -8,10 +8,10 @@
 
 #include "check/golden.hpp"
 #include "check/report.hpp"
-#include "render/renderer.hpp"
-#include "render/settings.hpp"
+#include "drape/render/renderer.hpp"
+#include "drape/render/settings.hpp"
+#include "drape/scene/scene.hpp"
 #include "run/progress.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

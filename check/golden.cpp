@@ -17,10 +17,10 @@
 #include "check/golden_motion.hpp"
 #include "check/manifest.hpp"
 #include "check/picture.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/hash.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;

@@ -8,11 +8,11 @@
 
 #include "check/name_difference.hpp"
 #include "check/report.hpp"
-#include "render/image.hpp"
-#include "render/settings.hpp"
-#include "render/view.hpp"
-#include "scene/scene.hpp"
-#include "sim/simulation.hpp"
+#include "drape/render/image.hpp"
+#include "drape/render/settings.hpp"
+#include "drape/render/view.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/simulation.hpp"
 
 namespace drape {
 

@@ -11,8 +11,8 @@
 
 #include "check/compare_motion.hpp"
 #include "check/report.hpp"
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "render/camera_path.hpp"
 #include "run/frame_source.hpp"
 #include "run/outputs.hpp"

@@ -10,8 +10,8 @@
 #include "check/compare_motion.hpp"
 #include "check/draw_frames.hpp"
 #include "check/golden.hpp"
+#include "drape/scene/scene.hpp"
 #include "run/progress.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

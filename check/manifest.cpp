@@ -15,7 +15,7 @@
 #include "core/installation.hpp"
 #include "core/sealed_json.hpp"
 #include "core/text.hpp"
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 
 namespace drape {
 namespace {

@@ -18,8 +18,8 @@
 
 #include "core/build_info.hpp"
 #include "core/machine.hpp"
-#include "sim/effects/self_collision.hpp"
-#include "sim/effects/strain_limit.hpp"
+#include "drape/sim/effects/self_collision.hpp"
+#include "drape/sim/effects/strain_limit.hpp"
 #include "sim/kernels/kernels.hpp"
 
 namespace drape {

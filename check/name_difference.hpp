@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "check/report.hpp"
-#include "render/image.hpp"
-#include "sim/settings.hpp"
-#include "sim/simulation.hpp"
+#include "drape/render/image.hpp"
+#include "drape/sim/settings.hpp"
+#include "drape/sim/simulation.hpp"
 
 namespace drape {
 

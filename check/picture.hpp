@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "check/report.hpp"
+#include "drape/render/image.hpp"
+#include "drape/scene/scene.hpp"
 #include "render/flip.hpp"
-#include "render/image.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

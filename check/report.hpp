@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
 #include "reports/players.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <vector>
 
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 
 namespace drape {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "check/golden.hpp"
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 
 namespace drape {
 

@@ -10,10 +10,10 @@
 #include "core/console.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "drape/render/overlay/fonts.hpp"
+#include "drape/scene/scene.hpp"
 #include "render/gl/inspect.hpp"
-#include "render/overlay/fonts.hpp"
 #include "run/outputs.hpp"
-#include "scene/scene.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/accuracy_runs.hpp"
 

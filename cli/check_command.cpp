@@ -18,10 +18,10 @@
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "run/shard.hpp"
 #include "sweep/merge.hpp"
 

@@ -17,8 +17,8 @@
 #include "cli/environment.hpp"
 #include "core/build_info.hpp"
 #include "core/console.hpp"
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "scene/tables.hpp"
 
 namespace drape {

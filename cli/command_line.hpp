@@ -7,7 +7,7 @@
 
 #include "cli/environment.hpp"
 #include "cli/terminal.hpp"
-#include "render/settings.hpp"
+#include "drape/render/settings.hpp"
 
 namespace drape {
 

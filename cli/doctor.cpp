@@ -15,18 +15,18 @@
 #include "cli/command_line.hpp"
 #include "cli/environment.hpp"
 #include "core/console.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/installation.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/overlay/fonts.hpp"
+#include "drape/render/renderer.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/mesh.hpp"
 #include "output/codecs/codecs.hpp"
 #include "output/registry.hpp"
 #include "render/gl/context.hpp"
-#include "render/overlay/fonts.hpp"
-#include "render/renderer.hpp"
 #include "reports/diagram_files.hpp"
-#include "scene/scene.hpp"
 #include "sim/kernels/kernels.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 namespace {

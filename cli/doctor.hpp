@@ -7,8 +7,8 @@
 
 #include "core/build_info.hpp"
 #include "core/machine.hpp"
+#include "drape/render/settings.hpp"
 #include "render/gl/inspect.hpp"
-#include "render/settings.hpp"
 
 namespace drape {
 

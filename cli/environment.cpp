@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/error.hpp"
-#include "scene/scene.hpp"
-#include "sim/settings.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/settings.hpp"
 
 namespace drape {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "check/report.hpp"
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "sweep/results.hpp"
 
 namespace drape {

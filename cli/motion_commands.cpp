@@ -13,15 +13,15 @@
 #include "cli/scene_files.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/image.hpp"
+#include "drape/sim/settings.hpp"
 #include "motion/import/import_motion.hpp"
 #include "output/sink.hpp"
 #include "render/gl/inspect.hpp"
-#include "render/image.hpp"
 #include "run/outputs.hpp"
-#include "sim/settings.hpp"
 
 namespace drape {
 namespace {

@@ -10,16 +10,16 @@
 #include "cli/scene_files.hpp"
 #include "cli/terminal.hpp"
 #include "core/build_info.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/settings.hpp"
 #include "motion/import/import_motion.hpp"
 #include "motion/reader.hpp"
 #include "output/registry.hpp"
 #include "run/frame_player.hpp"
 #include "scene/motion_scene.hpp"
-#include "scene/scene.hpp"
-#include "sim/settings.hpp"
 
 namespace drape {
 namespace {

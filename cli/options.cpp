@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "output/registry.hpp"
 #include "output/sink.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "cli/motion_runs.hpp"
 #include "cli/options.hpp"
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "output/registry.hpp"
 #include "output/sink.hpp"
 #include "run/outputs.hpp"

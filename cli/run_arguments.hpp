@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "drape/scene/scene.hpp"
 #include "run/run_scene.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

@@ -14,14 +14,14 @@
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
 #include "core/text.hpp"
+#include "drape/render/image.hpp"
+#include "drape/scene/scene.hpp"
 #include "motion/import/import_motion.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
-#include "render/image.hpp"
 #include "run/outputs.hpp"
 #include "run/records.hpp"
 #include "run/run_scene.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 namespace {

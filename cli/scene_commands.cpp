@@ -18,13 +18,13 @@
 #include "cli/terminal.hpp"
 #include "cli/watch/session.hpp"
 #include "core/console.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
 #include "render/gl/inspect.hpp"
 #include "run/outputs.hpp"
 #include "scene/motion_scene.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 namespace {
@@ -183,7 +183,9 @@ void add_complete_command(CLI::App& app, Command& command) {
   sub->callback([words, &app, &command] {
     command = [words, &app] {
       for (const Completion& one : completions(describe_command(app), reference_tables(), *words)) {
-        print_text(stdout, one.help.empty() ? one.word + "\n" : fmt::format("{}\t{}\n", one.word, one.help));
+        // A tab or a new line in the name of a file would end the word.
+        if (one.word.find_first_of("\t\n") != std::string::npos) continue;
+        print_unescaped(stdout, one.help.empty() ? one.word + "\n" : fmt::format("{}\t{}\n", one.word, one.help));
       }
       return ExitCode::ok;
     };

@@ -13,10 +13,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {

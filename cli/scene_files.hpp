@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "drape/scene/scene.hpp"
 #include "run/run_scene.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

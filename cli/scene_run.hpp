@@ -8,11 +8,11 @@
 #include "cli/run_arguments.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
+#include "drape/scene/document.hpp"
+#include "drape/scene/scene.hpp"
 #include "run/progress.hpp"
 #include "run/run_scene.hpp"
 #include "run/statistics.hpp"
-#include "scene/document.hpp"
-#include "scene/scene.hpp"
 #include "sim/start_overlap.hpp"
 
 namespace drape {

@@ -20,7 +20,7 @@
 #include "core/console.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "scene/selection.hpp"
 #include "sweep/merge.hpp"
 

@@ -7,7 +7,7 @@ target_compile_options(drape_options INTERFACE -fno-math-errno -ffp-contract=off
   -Wall -Wextra -Wpedantic
   # Files compiled as one may have constants of the same name in their unnamed namespaces.
   $<$<CXX_COMPILER_ID:GNU>:$<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,-Wshadow=local,-Wshadow>>)
-target_include_directories(drape_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_include_directories(drape_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 
 if(DRAPE_SANITIZE)
   # UBSan takes more compile time than everything else together. Its null check is omitted, because a null pointer ends the

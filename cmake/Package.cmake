@@ -20,25 +20,5 @@ install(FILES ${PROJECT_BINARY_DIR}/drapeConfig.cmake ${PROJECT_BINARY_DIR}/drap
               ${CMAKE_CURRENT_LIST_DIR}/FindCHOLMOD.cmake
         DESTINATION ${package_folder})
 
-# The public headers, each with an example, and the headers that they include. Installed, they are drape/sim/simulation.hpp,
-# and include each other by that name: folders named `core` or `run` would clash with others.
-set(public_headers
-  core/error.hpp
-  sim/body_shape.hpp sim/cloth.hpp sim/state.hpp sim/state.hpp sim/cloth.hpp sim/state.hpp sim/settings.hpp sim/tracks.hpp
-  sim/mesh.hpp sim/mesh.hpp sim/body_shape.hpp sim/settings.hpp sim/simulation.hpp sim/tracks.hpp sim/state.hpp sim/state.hpp sim/settings.hpp
-  sim/effects/wind.hpp sim/effects/bending.hpp sim/effects/body.hpp sim/effects/damping.hpp sim/effects/effect.hpp sim/effects/field.hpp
-  sim/effects/gravity.hpp sim/effects/ground.hpp sim/effects/moving_pins.hpp sim/effects/self_collision.hpp
-  sim/effects/sphere.hpp sim/effects/strain_limit.hpp sim/effects/wind.hpp
-  scene/scene.hpp scene/scene.hpp
-  render/settings.hpp render/image.hpp render/renderer.hpp render/settings.hpp render/view.hpp)
-set(included_headers
-  core/rotation.hpp core/rgb.hpp render/overlay/fonts.hpp render/overlay/pen.hpp render/overlay/caption.hpp render/overlay/caption.hpp scene/scene.hpp
-  scene/document.hpp scene/portable.hpp sim/effects/wind.hpp sim/schemes/method_choice.hpp sim/solvers/accuracy.hpp)
-install(CODE "
-  foreach(header ${public_headers} ${included_headers})
-    file(READ \"${PROJECT_SOURCE_DIR}/\${header}\" text)
-    string(REGEX REPLACE \"#include \\\"([a-z])\" \"#include \\\"drape/\\\\1\" text \"\${text}\")
-    set(place \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/drape/\${header}\")
-    file(WRITE \"\$ENV{DESTDIR}\${place}\" \"\${text}\")
-    list(APPEND CMAKE_INSTALL_MANIFEST_FILES \"\${place}\")
-  endforeach()")
+# Headers that begin with an example are public; the others are included by them.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/drape DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")

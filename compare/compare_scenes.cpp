@@ -12,15 +12,15 @@
 
 #include "compare/page.hpp"
 #include "compare/panels.hpp"
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/view.hpp"
+#include "drape/scene/scene.hpp"
 #include "output/html_writer.hpp"
 #include "output/png_encoder.hpp"
 #include "output/registry.hpp"
-#include "render/view.hpp"
 #include "run/frame_player.hpp"
 #include "run/outputs.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 namespace {

@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "drape/render/settings.hpp"
+#include "drape/scene/scene.hpp"
 #include "motion/vertex_order.hpp"
 #include "output/registry.hpp"
 #include "render/camera_path.hpp"
-#include "render/settings.hpp"
 #include "reports/players.hpp"
 #include "run/frame_source.hpp"
 #include "run/progress.hpp"
 #include "run/run_scene.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

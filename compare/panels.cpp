@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "render/image.hpp"
-#include "render/overlay/caption.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/image.hpp"
+#include "drape/render/overlay/caption.hpp"
 #include "render/overlay/color_scale.hpp"
 #include "render/overlay/diagrams.hpp"
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "compare/compare_scenes.hpp"
+#include "drape/render/overlay/pen.hpp"
+#include "drape/render/renderer.hpp"
+#include "drape/scene/scene.hpp"
 #include "render/overlay/color_scale.hpp"
-#include "render/overlay/pen.hpp"
-#include "render/renderer.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

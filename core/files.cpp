@@ -14,8 +14,8 @@
 #include <system_error>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;

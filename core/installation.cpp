@@ -15,10 +15,10 @@
 #include <system_error>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/hash.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace {

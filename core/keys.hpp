@@ -15,8 +15,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/rgb.hpp"
-#include "core/rotation.hpp"
+#include "drape/core/rgb.hpp"
+#include "drape/core/rotation.hpp"
 
 namespace drape {
 

@@ -16,7 +16,7 @@
 #include <string_view>
 #include <thread>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/simulation.hpp"
-#include "sim/state.hpp"
+#include "drape/sim/simulation.hpp"
+#include "drape/sim/state.hpp"
 
 namespace drape {
 

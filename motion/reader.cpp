@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
 #include "motion/blocks.hpp"
 #include "motion/writer.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 namespace {

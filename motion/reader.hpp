@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/files.hpp"
+#include "drape/scene/scene.hpp"
 #include "motion/blocks.hpp"
 #include "motion/header.hpp"
 #include "motion/state_codec.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

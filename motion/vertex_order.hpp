@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/cloth.hpp"
+#include "drape/sim/cloth.hpp"
 
 namespace drape {
 

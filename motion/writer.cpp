@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <cstring>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
 #include "motion/blocks.hpp"
 #include "motion/reader.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "drape/scene/scene.hpp"
 #include "motion/blocks.hpp"
 #include "motion/header.hpp"
 #include "motion/state_codec.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

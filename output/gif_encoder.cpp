@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "output/codecs/codecs.hpp"
 #include "output/gif/film_writer.hpp"
 #include "output/gif/palette.hpp"

@@ -7,10 +7,10 @@
 #include <map>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/image.hpp"
 #include "output/vtk_writer.hpp"
-#include "render/image.hpp"
 
 namespace drape {
 namespace {

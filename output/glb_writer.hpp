@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/files.hpp"
+#include "drape/sim/mesh.hpp"
 #include "output/mesh_writers.hpp"
 #include "output/registry.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

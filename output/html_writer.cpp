@@ -9,10 +9,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/image.hpp"
 #include "output/png_encoder.hpp"
 #include "output/vtk_writer.hpp"
-#include "render/image.hpp"
 #include "render/overlay/color_scale.hpp"
 #include "reports/components.hpp"
 #include "reports/page.hpp"

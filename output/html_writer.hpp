@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "drape/sim/mesh.hpp"
 #include "output/mesh_writers.hpp"
 #include "output/png_encoder.hpp"
 #include "output/registry.hpp"
 #include "render/overlay/color_scale.hpp"
 #include "reports/players.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/rotation.hpp"
+#include "drape/core/rotation.hpp"
 #include "output/sink.hpp"
 #include "output/vtk_writer.hpp"
 

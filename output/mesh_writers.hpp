@@ -5,9 +5,9 @@
 #include <string>
 
 #include "core/files.hpp"
+#include "drape/sim/mesh.hpp"
+#include "drape/sim/state.hpp"
 #include "output/registry.hpp"
-#include "sim/mesh.hpp"
-#include "sim/state.hpp"
 
 namespace drape {
 

@@ -11,10 +11,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/image.hpp"
 #include "output/codecs/png.hpp"
-#include "render/image.hpp"
 #include "render/overlay/diagrams.hpp"
 
 namespace drape {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "drape/render/image.hpp"
+#include "drape/render/overlay/pen.hpp"
+#include "drape/sim/mesh.hpp"
 #include "output/registry.hpp"
-#include "render/image.hpp"
-#include "render/overlay/pen.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

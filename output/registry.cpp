@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "output/gif_encoder.hpp"
 #include "output/glb_writer.hpp"
 #include "output/html_writer.hpp"

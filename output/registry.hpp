@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
+#include "drape/render/settings.hpp"
+#include "drape/sim/cloth.hpp"
 #include "output/sink.hpp"
-#include "render/settings.hpp"
-#include "sim/cloth.hpp"
 
 namespace drape {
 

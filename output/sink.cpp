@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <charconv>
 
-#include "core/error.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/files.hpp"
-#include "render/image.hpp"
-#include "sim/state.hpp"
+#include "drape/render/image.hpp"
+#include "drape/sim/state.hpp"
 
 namespace drape {
 

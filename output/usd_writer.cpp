@@ -6,9 +6,9 @@
 #include <system_error>
 #include <utility>
 
-#include "core/rotation.hpp"
+#include "drape/core/rotation.hpp"
+#include "drape/render/image.hpp"
 #include "output/vtk_writer.hpp"
-#include "render/image.hpp"
 
 namespace drape {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/files.hpp"
+#include "drape/render/settings.hpp"
 #include "output/mesh_writers.hpp"
 #include "output/registry.hpp"
-#include "render/settings.hpp"
 
 namespace drape {
 

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "output/codecs/codecs.hpp"
 
 namespace drape {

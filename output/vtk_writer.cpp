@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/text.hpp"
+#include "drape/sim/mesh.hpp"
 #include "output/mesh_writers.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 namespace {

@@ -6,11 +6,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
+#include "drape/core/error.hpp"
+#include "drape/sim/mesh.hpp"
 #include "output/mesh_writers.hpp"
 #include "output/registry.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

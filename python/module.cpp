@@ -5,10 +5,10 @@
 
 #include "core/build_info.hpp"
 #include "core/text.hpp"
+#include "drape/render/renderer.hpp"
+#include "drape/sim/settings.hpp"
 #include "python/simulation.hpp"
 #include "render/overlay/color_scale.hpp"
-#include "render/renderer.hpp"
-#include "sim/settings.hpp"
 
 namespace py = pybind11;
 

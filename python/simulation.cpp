@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "scene/values.hpp"
 
 namespace py = pybind11;

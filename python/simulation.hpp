@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "scene/document.hpp"
-#include "scene/scene.hpp"
-#include "sim/simulation.hpp"
-#include "sim/state.hpp"
+#include "drape/scene/document.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/simulation.hpp"
+#include "drape/sim/state.hpp"
 
 namespace drape::python {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "drape/sim/mesh.hpp"
 #include "render/shadows.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

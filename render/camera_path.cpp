@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/rotation.hpp"
+#include "drape/core/rotation.hpp"
 #include "render/shot.hpp"
 #include "render/smooth_surface.hpp"
 

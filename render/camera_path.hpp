@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "render/settings.hpp"
-#include "render/view.hpp"
-#include "sim/mesh.hpp"
+#include "drape/render/settings.hpp"
+#include "drape/render/view.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape {
 

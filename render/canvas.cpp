@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/error.hpp"
-#include "render/image.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/image.hpp"
 
 namespace drape {
 namespace {

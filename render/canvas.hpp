@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "drape/render/image.hpp"
+#include "drape/render/settings.hpp"
 #include "render/gl/program.hpp"
-#include "render/image.hpp"
-#include "render/settings.hpp"
 #include "render/shot.hpp"
 
 namespace drape {

@@ -9,10 +9,10 @@
 #include <tuple>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/image.hpp"
 #include "render/gl/inspect.hpp"
-#include "render/image.hpp"
 #include "render/smooth_surface.hpp"
 
 namespace drape {

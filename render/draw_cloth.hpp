@@ -6,14 +6,14 @@
 #include <span>
 #include <vector>
 
+#include "drape/render/settings.hpp"
+#include "drape/sim/mesh.hpp"
 #include "render/ambient_occlusion.hpp"
 #include "render/gl/device.hpp"
 #include "render/gl/program.hpp"
-#include "render/settings.hpp"
 #include "render/shadows.hpp"
 #include "render/shot.hpp"
 #include "render/smooth_surface.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/image.hpp"
+#include "drape/render/image.hpp"
 #include "render/smooth_surface.hpp"
 
 namespace drape {

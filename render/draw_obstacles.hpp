@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "drape/render/settings.hpp"
 #include "render/gl/device.hpp"
 #include "render/gl/program.hpp"
-#include "render/settings.hpp"
 #include "render/shadows.hpp"
 #include "render/shot.hpp"
 

@@ -11,7 +11,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "render/image.hpp"
+#include "drape/render/image.hpp"
 
 namespace drape {
 namespace {

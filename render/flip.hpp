@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "render/image.hpp"
+#include "drape/render/image.hpp"
 
 namespace drape {
 

@@ -1,4 +1,4 @@
-#include "render/image.hpp"
+#include "drape/render/image.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/machine.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "output/codecs/codecs.hpp"
 
 namespace drape {

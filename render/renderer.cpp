@@ -1,4 +1,4 @@
-#include "render/renderer.hpp"
+#include "drape/render/renderer.hpp"
 
 #include <fmt/format.h>
 #include <optional>

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "drape/sim/mesh.hpp"
+#include "drape/sim/state.hpp"
 #include "render/gl/program.hpp"
 #include "render/shot.hpp"
-#include "sim/mesh.hpp"
-#include "sim/state.hpp"
 
 namespace drape {
 

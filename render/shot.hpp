@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "drape/render/settings.hpp"
+#include "drape/render/view.hpp"
+#include "drape/sim/state.hpp"
 #include "render/gl/program.hpp"
-#include "render/settings.hpp"
-#include "render/view.hpp"
-#include "sim/state.hpp"
 
 namespace drape {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape {
 

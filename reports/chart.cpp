@@ -8,8 +8,8 @@
 #include <functional>
 #include <utility>
 
+#include "drape/scene/scene.hpp"
 #include "reports/components.hpp"
-#include "scene/scene.hpp"
 
 namespace drape::html {
 namespace {

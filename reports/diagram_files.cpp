@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/installation.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 

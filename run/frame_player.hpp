@@ -4,10 +4,10 @@
 #include <stop_token>
 #include <thread>
 
+#include "drape/scene/scene.hpp"
 #include "motion/reader.hpp"
 #include "run/bounded_queue.hpp"
 #include "run/frame_source.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

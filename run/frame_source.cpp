@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
+#include "drape/sim/simulation.hpp"
 #include "run/frame_player.hpp"
 #include "run/run_scene.hpp"
-#include "sim/simulation.hpp"
 
 namespace drape {
 namespace {

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "core/files.hpp"
+#include "drape/render/settings.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/state.hpp"
 #include "motion/reader.hpp"
-#include "render/settings.hpp"
 #include "run/statistics.hpp"
-#include "scene/scene.hpp"
-#include "sim/state.hpp"
 
 namespace drape {
 

@@ -6,12 +6,12 @@
 #include <string_view>
 #include <type_traits>
 
-#include "core/error.hpp"
 #include "core/machine.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/overlay/caption.hpp"
 #include "output/png_encoder.hpp"
 #include "output/registry.hpp"
-#include "render/overlay/caption.hpp"
 #include "render/overlay/diagrams.hpp"
 #include "run/run_scene.hpp"
 #include "scene/caption.hpp"

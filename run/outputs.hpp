@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "drape/render/image.hpp"
+#include "drape/render/overlay/pen.hpp"
+#include "drape/render/renderer.hpp"
+#include "drape/scene/scene.hpp"
 #include "output/png_encoder.hpp"
 #include "output/registry.hpp"
 #include "render/camera_path.hpp"
-#include "render/image.hpp"
 #include "render/overlay/color_scale.hpp"
 #include "render/overlay/diagrams.hpp"
-#include "render/overlay/pen.hpp"
-#include "render/renderer.hpp"
 #include "run/frame_source.hpp"
 #include "run/run_scene.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 
 namespace drape {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 

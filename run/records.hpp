@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/files.hpp"
+#include "drape/scene/scene.hpp"
 #include "motion/reader.hpp"
 #include "run/statistics.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

@@ -11,9 +11,9 @@
 #include <thread>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "render/camera_path.hpp"
 #include "run/bounded_queue.hpp"
 #include "run/frame_player.hpp"

@@ -11,15 +11,15 @@
 #include <string>
 #include <vector>
 
+#include "drape/render/settings.hpp"
+#include "drape/scene/scene.hpp"
 #include "motion/reader.hpp"
 #include "output/registry.hpp"
-#include "render/settings.hpp"
 #include "run/frame_source.hpp"
 #include "run/motion_recorder.hpp"
 #include "run/progress.hpp"
 #include "run/records.hpp"
 #include "run/statistics.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

@@ -5,11 +5,11 @@
 #include <charconv>
 #include <numeric>
 
-#include "core/error.hpp"
 #include "core/machine.hpp"
+#include "drape/core/error.hpp"
+#include "drape/sim/schemes/method_choice.hpp"
 #include "run/outputs.hpp"
 #include "sim/parallel/loops.hpp"
-#include "sim/schemes/method_choice.hpp"
 
 namespace drape {
 

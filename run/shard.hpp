@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "drape/scene/scene.hpp"
+#include "drape/sim/settings.hpp"
 #include "run/run_scene.hpp"
-#include "scene/scene.hpp"
-#include "sim/settings.hpp"
 
 namespace drape {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 
 namespace drape {
 

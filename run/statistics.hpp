@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "drape/sim/simulation.hpp"
+#include "drape/sim/state.hpp"
 #include "motion/header.hpp"
-#include "sim/simulation.hpp"
-#include "sim/state.hpp"
 
 namespace drape {
 

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "render/overlay/caption.hpp"
-#include "scene/document.hpp"
+#include "drape/render/overlay/caption.hpp"
+#include "drape/scene/document.hpp"
+#include "drape/sim/state.hpp"
 #include "scene/effects_reader.hpp"
-#include "sim/state.hpp"
 
 namespace drape {
 

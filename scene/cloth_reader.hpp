@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "scene/document.hpp"
+#include "drape/scene/document.hpp"
+#include "drape/sim/cloth.hpp"
 #include "scene/selection.hpp"
 #include "scene/tables.hpp"
-#include "sim/cloth.hpp"
 
 namespace drape {
 

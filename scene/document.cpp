@@ -1,4 +1,4 @@
-#include "scene/document.hpp"
+#include "drape/scene/document.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -11,10 +11,10 @@
 #include <type_traits>
 #include <variant>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/hash.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "scene/mesh/source.hpp"
 #include "scene/tables.hpp"
 

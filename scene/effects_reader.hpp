@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "core/keys.hpp"
-#include "scene/document.hpp"
-#include "scene/scene.hpp"
+#include "drape/scene/document.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/effects/effect.hpp"
 #include "scene/table_reader.hpp"
-#include "sim/effects/effect.hpp"
 
 namespace drape {
 

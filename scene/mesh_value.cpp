@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "scene/mesh/obj.hpp"
 #include "scene/mesh/source.hpp"
 #include "scene/table_reader.hpp"

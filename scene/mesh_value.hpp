@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/keys.hpp"
-#include "scene/document.hpp"
+#include "drape/scene/document.hpp"
+#include "drape/sim/body_shape.hpp"
+#include "drape/sim/mesh.hpp"
 #include "scene/mesh/source.hpp"
-#include "sim/body_shape.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <string_view>
 
-#include "core/error.hpp"
-#include "scene/document.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/document.hpp"
 #include "scene/table_reader.hpp"
 
 namespace drape {

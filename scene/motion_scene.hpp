@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "scene/tables.hpp"
 
 namespace drape {

@@ -1,14 +1,14 @@
-#include "scene/portable.hpp"
+#include "drape/scene/portable.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <system_error>
 
-#include "core/error.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
 #include "scene/mesh/source.hpp"
-#include "scene/scene.hpp"
 #include "scene/values.hpp"
 
 namespace drape {

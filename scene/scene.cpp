@@ -1,4 +1,4 @@
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,17 +12,17 @@
 
 #include "core/files.hpp"
 #include "core/hash.hpp"
+#include "drape/scene/document.hpp"
+#include "drape/sim/body_shape.hpp"
+#include "drape/sim/effects/bending.hpp"
+#include "drape/sim/simulation.hpp"
 #include "scene/caption.hpp"
 #include "scene/cloth_reader.hpp"
-#include "scene/document.hpp"
 #include "scene/effects_reader.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
 #include "scene/values.hpp"
-#include "sim/body_shape.hpp"
-#include "sim/effects/bending.hpp"
 #include "sim/schemes/registry.hpp"
-#include "sim/simulation.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "scene/mesh_value.hpp"
 #include "scene/values.hpp"
 

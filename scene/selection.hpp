@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/document.hpp"
+#include "drape/scene/document.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/mesh.hpp"
 #include "scene/mesh/source.hpp"
-#include "sim/cloth.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

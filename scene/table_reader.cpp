@@ -5,14 +5,14 @@
 #include <any>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/body_shape.hpp"
 #include "scene/cloth_reader.hpp"
 #include "scene/mesh_value.hpp"
-#include "scene/scene.hpp"
 #include "scene/usd/motion.hpp"
 #include "scene/values.hpp"
-#include "sim/body_shape.hpp"
 
 namespace drape {
 namespace {

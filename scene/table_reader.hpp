@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/document.hpp"
+#include "drape/scene/document.hpp"
 #include "scene/selection.hpp"
 #include "scene/tables.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "scene/values.hpp"
 
 namespace drape {

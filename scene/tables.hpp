@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/keys.hpp"
-#include "scene/scene.hpp"
-#include "sim/cloth.hpp"
-#include "sim/effects/effect.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/effects/effect.hpp"
 
 namespace drape {
 

@@ -11,10 +11,10 @@
 #include <system_error>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
-#include "scene/document.hpp"
-#include "scene/scene.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/document.hpp"
+#include "drape/scene/scene.hpp"
 
 namespace drape {
 namespace {

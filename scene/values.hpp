@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/keys.hpp"
-#include "core/rgb.hpp"
-#include "scene/document.hpp"
+#include "drape/core/rgb.hpp"
+#include "drape/scene/document.hpp"
 
 namespace drape {
 

@@ -1,4 +1,4 @@
-#include "sim/body_shape.hpp"
+#include "drape/sim/body_shape.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/keys.hpp"
-#include "sim/tracks.hpp"
+#include "drape/sim/tracks.hpp"
 
 namespace drape {
 

@@ -1,4 +1,4 @@
-#include "sim/cloth.hpp"
+#include "drape/sim/cloth.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/body_shape.hpp"
+#include "drape/sim/body_shape.hpp"
 
 namespace drape {
 

@@ -1,11 +1,11 @@
-#include "sim/settings.hpp"
+#include "drape/sim/settings.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace {

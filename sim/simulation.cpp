@@ -1,12 +1,12 @@
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 
 #include <cmath>
 #include <utility>
 
+#include "drape/sim/schemes/method_choice.hpp"
+#include "drape/sim/settings.hpp"
 #include "sim/parallel/vectors.hpp"
-#include "sim/schemes/method_choice.hpp"
 #include "sim/schemes/registry.hpp"
-#include "sim/settings.hpp"
 #include "sim/spring_network.hpp"
 #include "sim/step_objective.hpp"
 #include "sim/system.hpp"

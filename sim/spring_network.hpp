@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sim/cloth.hpp"
+#include "drape/sim/cloth.hpp"
 #include "sim/kernels/vertices.hpp"
 #include "sim/parallel/loops.hpp"
 #include "sim/parallel/threads.hpp"

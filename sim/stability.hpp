@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/settings.hpp"
+#include "drape/sim/settings.hpp"
 
 namespace drape {
 

@@ -1,4 +1,4 @@
-#include "sim/state.hpp"
+#include "drape/sim/state.hpp"
 
 #include "core/hash.hpp"
 

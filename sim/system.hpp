@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "sim/cloth.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/settings.hpp"
+#include "drape/sim/state.hpp"
+#include "drape/sim/tracks.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/parallel/threads.hpp"
-#include "sim/settings.hpp"
-#include "sim/state.hpp"
-#include "sim/tracks.hpp"
 
 namespace drape {
 

@@ -1,4 +1,4 @@
-#include "sim/tracks.hpp"
+#include "drape/sim/tracks.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/body_shape.hpp"
+#include "drape/sim/body_shape.hpp"
 #include "sim/mesh_anchors.hpp"
 
 namespace drape {

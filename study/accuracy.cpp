@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/text.hpp"
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/settings.hpp"
+#include "drape/render/settings.hpp"
 #include "run/progress.hpp"
 #include "study/measure.hpp"
 #include "study/reference.hpp"

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/text.hpp"
+#include "drape/scene/scene.hpp"
 #include "reports/chart.hpp"
-#include "scene/scene.hpp"
 #include "study/accuracy_report.hpp"
 
 namespace drape {

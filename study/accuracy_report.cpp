@@ -9,8 +9,8 @@
 
 #include "core/console.hpp"
 #include "core/text.hpp"
+#include "drape/scene/scene.hpp"
 #include "reports/chart.hpp"
-#include "scene/scene.hpp"
 #include "study/accuracy_asked.hpp"
 #include "study/profile.hpp"
 

@@ -10,7 +10,7 @@
 #include "core/files.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/animation.hpp"
 #include "study/runs_file.hpp"

@@ -5,7 +5,7 @@
 #include <list>
 #include <string>
 
-#include "render/settings.hpp"
+#include "drape/render/settings.hpp"
 #include "study/accuracy.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/animation.hpp"

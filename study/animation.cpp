@@ -12,19 +12,19 @@
 
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "drape/render/image.hpp"
+#include "drape/render/overlay/pen.hpp"
+#include "drape/render/renderer.hpp"
+#include "drape/sim/mesh.hpp"
 #include "output/gif_encoder.hpp"
 #include "output/png_encoder.hpp"
 #include "render/flip.hpp"
-#include "render/image.hpp"
 #include "render/overlay/color_scale.hpp"
 #include "render/overlay/diagrams.hpp"
-#include "render/overlay/pen.hpp"
-#include "render/renderer.hpp"
 #include "reports/players.hpp"
 #include "run/frame_source.hpp"
 #include "run/outputs.hpp"
 #include "run/run_scene.hpp"
-#include "sim/mesh.hpp"
 #include "study/reference.hpp"
 
 namespace drape {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "drape/render/renderer.hpp"
+#include "drape/render/settings.hpp"
+#include "drape/scene/scene.hpp"
 #include "render/camera_path.hpp"
-#include "render/renderer.hpp"
-#include "render/settings.hpp"
 #include "run/progress.hpp"
-#include "scene/scene.hpp"
 #include "study/reference.hpp"
 #include "study/solve_error.hpp"
 

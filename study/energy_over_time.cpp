@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drape/scene/scene.hpp"
+#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/simulation.hpp"
 #include "reports/chart.hpp"
 #include "run/run_scene.hpp"
-#include "scene/scene.hpp"
-#include "sim/effects/gravity.hpp"
-#include "sim/simulation.hpp"
 
 namespace drape {
 namespace {

@@ -4,8 +4,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "drape/sim/settings.hpp"
 #include "reports/diagram_files.hpp"
-#include "sim/settings.hpp"
 
 namespace drape {
 

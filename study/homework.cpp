@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
+#include "drape/sim/simulation.hpp"
 #include "reports/chart.hpp"
 #include "run/run_scene.hpp"
-#include "sim/simulation.hpp"
 #include "study/homework_report.hpp"
 
 namespace drape {

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "motion/import/npz.hpp"
 #include "study/runs_file.hpp"
 #include "study/validation.hpp"

@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
+#include "drape/sim/mesh.hpp"
 #include "run/run_scene.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 namespace {

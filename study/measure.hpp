@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "drape/sim/simulation.hpp"
 #include "run/progress.hpp"
 #include "sim/kernels/kernels.hpp"
-#include "sim/simulation.hpp"
 #include "study/runs_file.hpp"
 
 namespace drape {

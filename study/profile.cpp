@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/text.hpp"
+#include "drape/scene/scene.hpp"
 #include "reports/chart.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

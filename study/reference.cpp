@@ -6,13 +6,13 @@
 #include <limits>
 #include <string_view>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/self_collision.hpp"
+#include "drape/sim/effects/sphere.hpp"
+#include "drape/sim/effects/strain_limit.hpp"
 #include "output/html_writer.hpp"
 #include "run/run_scene.hpp"
-#include "sim/effects/ground.hpp"
-#include "sim/effects/self_collision.hpp"
-#include "sim/effects/sphere.hpp"
-#include "sim/effects/strain_limit.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

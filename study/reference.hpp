@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "drape/sim/simulation.hpp"
+#include "drape/sim/state.hpp"
 #include "reports/players.hpp"
 #include "run/progress.hpp"
-#include "sim/simulation.hpp"
-#include "sim/state.hpp"
 #include "study/runs_file.hpp"
 
 namespace drape {

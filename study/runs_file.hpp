@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "scene/scene.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
 
 namespace drape {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "run/run_scene.hpp"
 #include "sim/step_objective.hpp"
 #include "sim/system.hpp"

@@ -5,8 +5,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "drape/sim/simulation.hpp"
 #include "run/progress.hpp"
-#include "sim/simulation.hpp"
 
 namespace drape {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "drape/sim/settings.hpp"
 #include "run/progress.hpp"
 #include "run/shard.hpp"
-#include "sim/settings.hpp"
 #include "study/energy_over_time.hpp"
 #include "study/reference.hpp"
 

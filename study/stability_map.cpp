@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "drape/scene/scene.hpp"
 #include "reports/chart.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 namespace {

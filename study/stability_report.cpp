@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "study/stability.hpp"
 
 namespace drape {

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"
-#include "scene/scene.hpp"
-#include "sim/simulation.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/simulation.hpp"
 #include "study/measure.hpp"
 #include "study/validation_measures.hpp"
 

@@ -9,9 +9,9 @@
 #include <map>
 #include <numbers>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "study/known_answers.hpp"
 #include "study/runs_file.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/cloth.hpp"
+#include "drape/sim/cloth.hpp"
 #include "study/validation.hpp"
 
 namespace drape {

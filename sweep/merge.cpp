@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "core/error.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "sweep/run_sweep.hpp"
 
 namespace drape {

@@ -15,9 +15,9 @@
 
 #include "core/files.hpp"
 #include "core/hash.hpp"
+#include "drape/render/image.hpp"
 #include "output/codecs/codecs.hpp"
 #include "output/codecs/png.hpp"
-#include "render/image.hpp"
 #include "reports/chart.hpp"
 #include "reports/page.hpp"
 #include "reports/players.hpp"

@@ -10,15 +10,15 @@
 #include <sstream>
 
 #include "core/build_info.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/hash.hpp"
 #include "core/installation.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/document.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "run/outputs.hpp"
 #include "run/shard.hpp"
-#include "scene/document.hpp"
 #include "sweep/page.hpp"
 
 namespace drape {

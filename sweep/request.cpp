@@ -12,9 +12,9 @@
 #include <string_view>
 
 #include "core/console.hpp"
-#include "core/error.hpp"
 #include "core/text.hpp"
-#include "scene/document.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/document.hpp"
 #include "scene/values.hpp"
 
 namespace drape {

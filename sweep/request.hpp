@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "render/settings.hpp"
+#include "drape/render/settings.hpp"
+#include "drape/scene/scene.hpp"
 #include "run/run_scene.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

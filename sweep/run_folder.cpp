@@ -10,10 +10,10 @@
 #include <system_error>
 
 #include "core/console.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace {

@@ -10,16 +10,16 @@
 #include <stdexcept>
 
 #include "audit/motion_audit.hpp"
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/renderer.hpp"
+#include "drape/render/view.hpp"
+#include "drape/sim/effects/strain_limit.hpp"
 #include "output/html_writer.hpp"
 #include "output/png_encoder.hpp"
-#include "render/renderer.hpp"
-#include "render/view.hpp"
 #include "reports/components.hpp"
 #include "reports/page.hpp"
 #include "run/run_scene.hpp"
-#include "sim/effects/strain_limit.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "audit/motion_audit.hpp"
+#include "drape/render/settings.hpp"
+#include "drape/scene/scene.hpp"
 #include "motion/reader.hpp"
-#include "render/settings.hpp"
 #include "reports/players.hpp"
 #include "reports/result_table.hpp"
 #include "run/progress.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

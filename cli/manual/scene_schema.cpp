@@ -6,11 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "drape/sim/body_shape.hpp"
 #include "scene/mesh_value.hpp"
 #include "scene/motion_scene.hpp"
 #include "scene/tables.hpp"
 #include "scene/values.hpp"
-#include "sim/body_shape.hpp"
 
 namespace drape {
 namespace {

@@ -13,8 +13,8 @@
 #include <thread>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
+#include "drape/core/error.hpp"
 #include "watch_assets.hpp"
 
 namespace drape {

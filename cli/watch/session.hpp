@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "drape/scene/scene.hpp"
 #include "run/progress.hpp"
 #include "run/run_scene.hpp"
-#include "scene/scene.hpp"
 
 namespace drape {
 

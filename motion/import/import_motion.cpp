@@ -6,15 +6,15 @@
 #include <iterator>
 #include <string_view>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
 #include "motion/import/mesh_sequence.hpp"
 #include "motion/import/motion_source.hpp"
 #include "motion/reader.hpp"
 #include "motion/writer.hpp"
 #include "scene/mesh/source.hpp"
-#include "scene/scene.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

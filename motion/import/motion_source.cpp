@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 #include "scene/mesh/source.hpp"
 
 namespace drape {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/mesh.hpp"
-#include "sim/state.hpp"
+#include "drape/sim/mesh.hpp"
+#include "drape/sim/state.hpp"
 
 namespace drape {
 

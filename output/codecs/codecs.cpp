@@ -4,8 +4,8 @@
 #include <mutex>
 
 #include "core/console.hpp"
-#include "core/error.hpp"
 #include "core/installation.hpp"
+#include "drape/core/error.hpp"
 #include "output/codecs/png.hpp"
 
 namespace drape {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "output/gif/palette.hpp"
 
 namespace drape::gif {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/files.hpp"
+#include "drape/render/image.hpp"
 #include "output/gif/dither.hpp"
 #include "output/gif/palette.hpp"
-#include "render/image.hpp"
 
 namespace drape::gif {
 

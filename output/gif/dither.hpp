@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "drape/render/image.hpp"
 #include "output/gif/palette.hpp"
-#include "render/image.hpp"
 
 namespace drape::gif {
 

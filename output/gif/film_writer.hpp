@@ -3,10 +3,10 @@
 #include <cstdint>
 
 #include "core/files.hpp"
+#include "drape/render/image.hpp"
 #include "output/gif/compactor.hpp"
 #include "output/gif/dither.hpp"
 #include "output/gif/palette.hpp"
-#include "render/image.hpp"
 
 namespace drape::gif {
 

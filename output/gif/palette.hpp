@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/image.hpp"
+#include "drape/render/image.hpp"
 
 namespace drape::gif {
 

@@ -5,9 +5,9 @@
 #include <atomic>
 #include <thread>
 
-#include "core/error.hpp"
 #include "core/installation.hpp"
 #include "core/machine.hpp"
+#include "drape/core/error.hpp"
 #include "render/gl/inspect.hpp"
 
 namespace drape {

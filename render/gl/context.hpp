@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/settings.hpp"
+#include "drape/render/settings.hpp"
 
 namespace drape {
 

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <tuple>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace {

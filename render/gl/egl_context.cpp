@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <array>
 
-#include "core/error.hpp"
 #include "core/installation.hpp"
+#include "drape/core/error.hpp"
 #include "render/gl/context.hpp"
 #include "render/gl/inspect.hpp"
 

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string_view>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "render/gl/context.hpp"
 #include "render/gl/program.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "render/settings.hpp"
+#include "drape/render/settings.hpp"
 
 namespace drape {
 

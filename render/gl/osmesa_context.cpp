@@ -2,8 +2,8 @@
 #include <array>
 #include <cstdint>
 
-#include "core/error.hpp"
 #include "core/installation.hpp"
+#include "drape/core/error.hpp"
 #include "render/gl/context.hpp"
 #include "render/gl/inspect.hpp"
 

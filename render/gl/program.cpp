@@ -5,8 +5,8 @@
 #include <sstream>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
+#include "drape/core/error.hpp"
 #include "render/gl/context.hpp"
 
 namespace drape {

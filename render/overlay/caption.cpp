@@ -1,11 +1,11 @@
-#include "render/overlay/caption.hpp"
+#include "drape/render/overlay/caption.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace {

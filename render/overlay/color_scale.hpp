@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "core/rgb.hpp"
+#include "drape/core/rgb.hpp"
+#include "drape/render/settings.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/mesh.hpp"
+#include "drape/sim/state.hpp"
 #include "render/overlay/diagrams.hpp"
-#include "render/settings.hpp"
-#include "sim/cloth.hpp"
-#include "sim/mesh.hpp"
-#include "sim/state.hpp"
 
 namespace drape {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/image.hpp"
-#include "render/overlay/pen.hpp"
+#include "drape/render/image.hpp"
+#include "drape/render/overlay/pen.hpp"
 
 namespace drape {
 

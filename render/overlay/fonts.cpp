@@ -1,4 +1,4 @@
-#include "render/overlay/fonts.hpp"
+#include "drape/render/overlay/fonts.hpp"
 
 #include <fmt/format.h>
 #include <fontconfig/fontconfig.h>
@@ -10,9 +10,9 @@
 #include <map>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace {

@@ -1,11 +1,11 @@
-#include "render/overlay/pen.hpp"
+#include "drape/render/overlay/pen.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "render/image.hpp"
+#include "drape/render/image.hpp"
 
 namespace drape {
 namespace {

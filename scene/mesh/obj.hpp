@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "drape/sim/mesh.hpp"
 #include "scene/mesh/source.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

@@ -11,9 +11,9 @@
 #include <system_error>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/files.hpp"
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape {
 

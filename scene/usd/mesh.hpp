@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "drape/sim/body_shape.hpp"
+#include "drape/sim/mesh.hpp"
 #include "scene/mesh/source.hpp"
 #include "scene/usd/stage.hpp"
-#include "sim/body_shape.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

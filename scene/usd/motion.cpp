@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "core/text.hpp"
+#include "drape/sim/tracks.hpp"
 #include "scene/usd/layer.hpp"
 #include "scene/usd/mesh.hpp"
 #include "scene/usd/stage.hpp"
-#include "sim/tracks.hpp"
 
 namespace drape {
 namespace {

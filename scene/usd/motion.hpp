@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "drape/sim/mesh.hpp"
+#include "drape/sim/tracks.hpp"
 #include "scene/mesh/source.hpp"
 #include "scene/usd/stage.hpp"
-#include "sim/mesh.hpp"
-#include "sim/tracks.hpp"
 
 namespace drape {
 

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace {

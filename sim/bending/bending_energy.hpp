@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "drape/sim/cloth.hpp"
 #include "sim/bending/curvature.hpp"
-#include "sim/cloth.hpp"
 #include "sim/spring_network.hpp"
 #include "sim/system.hpp"
 

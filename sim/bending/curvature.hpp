@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/cloth.hpp"
+#include "drape/sim/cloth.hpp"
 
 namespace drape {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/cloth.hpp"
+#include "drape/sim/cloth.hpp"
 #include "sim/collision/distance.hpp"
 #include "sim/collision/monotone_sheet.hpp"
 #include "sim/collision/placed_mesh.hpp"

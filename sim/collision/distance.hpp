@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape {
 

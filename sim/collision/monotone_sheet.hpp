@@ -3,10 +3,10 @@
 #include <array>
 #include <vector>
 
-#include "sim/cloth.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/mesh.hpp"
 #include "sim/collision/distance.hpp"
 #include "sim/collision/spatial_index.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

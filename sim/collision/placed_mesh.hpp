@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "sim/body_shape.hpp"
+#include "drape/sim/body_shape.hpp"
+#include "drape/sim/mesh.hpp"
 #include "sim/collision/distance.hpp"
 #include "sim/collision/spatial_index.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

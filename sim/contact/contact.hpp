@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/mesh.hpp"
-#include "sim/tracks.hpp"
+#include "drape/sim/mesh.hpp"
+#include "drape/sim/tracks.hpp"
 
 namespace drape {
 

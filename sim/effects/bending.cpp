@@ -1,4 +1,4 @@
-#include "sim/effects/bending.hpp"
+#include "drape/sim/effects/bending.hpp"
 
 #include "core/keys.hpp"
 #include "sim/bending/bending_energy.hpp"

@@ -1,4 +1,4 @@
-#include "sim/effects/body.hpp"
+#include "drape/sim/effects/body.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "sim/effects/damping.hpp"
+#include "drape/sim/effects/damping.hpp"
 
 #include <cmath>
 

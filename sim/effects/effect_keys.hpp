@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/keys.hpp"
-#include "sim/effects/effect.hpp"
-#include "sim/tracks.hpp"
+#include "drape/sim/effects/effect.hpp"
+#include "drape/sim/tracks.hpp"
 
 namespace drape {
 

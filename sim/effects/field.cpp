@@ -1,12 +1,12 @@
-#include "sim/effects/field.hpp"
+#include "drape/sim/effects/field.hpp"
 
 #include <fmt/format.h>
 #include <limits>
 #include <utility>
 
 #include "core/keys.hpp"
+#include "drape/sim/settings.hpp"
 #include "sim/formula.hpp"
-#include "sim/settings.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

@@ -1,4 +1,4 @@
-#include "sim/effects/gravity.hpp"
+#include "drape/sim/effects/gravity.hpp"
 
 #include "core/keys.hpp"
 #include "sim/effects/uniform_acceleration.hpp"

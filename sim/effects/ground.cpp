@@ -1,4 +1,4 @@
-#include "sim/effects/ground.hpp"
+#include "drape/sim/effects/ground.hpp"
 
 #include "sim/contact/contact.hpp"
 #include "sim/contact/mesh_contacts.hpp"

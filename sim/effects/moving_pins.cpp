@@ -1,4 +1,4 @@
-#include "sim/effects/moving_pins.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "core/keys.hpp"
+#include "drape/sim/settings.hpp"
 #include "sim/mesh_anchors.hpp"
-#include "sim/settings.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

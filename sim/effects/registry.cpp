@@ -1,17 +1,17 @@
 #include <algorithm>
 
-#include "sim/effects/bending.hpp"
-#include "sim/effects/body.hpp"
-#include "sim/effects/damping.hpp"
-#include "sim/effects/effect.hpp"
-#include "sim/effects/field.hpp"
-#include "sim/effects/gravity.hpp"
-#include "sim/effects/ground.hpp"
-#include "sim/effects/moving_pins.hpp"
-#include "sim/effects/self_collision.hpp"
-#include "sim/effects/sphere.hpp"
-#include "sim/effects/strain_limit.hpp"
-#include "sim/effects/wind.hpp"
+#include "drape/sim/effects/bending.hpp"
+#include "drape/sim/effects/body.hpp"
+#include "drape/sim/effects/damping.hpp"
+#include "drape/sim/effects/effect.hpp"
+#include "drape/sim/effects/field.hpp"
+#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
+#include "drape/sim/effects/self_collision.hpp"
+#include "drape/sim/effects/sphere.hpp"
+#include "drape/sim/effects/strain_limit.hpp"
+#include "drape/sim/effects/wind.hpp"
 
 namespace drape {
 namespace {

@@ -1,11 +1,11 @@
-#include "sim/effects/self_collision.hpp"
+#include "drape/sim/effects/self_collision.hpp"
 
 #include <fmt/format.h>
 
 #include "core/keys.hpp"
+#include "drape/sim/settings.hpp"
 #include "sim/contact/mesh_contacts.hpp"
 #include "sim/effects/effect_keys.hpp"
-#include "sim/settings.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

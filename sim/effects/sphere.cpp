@@ -1,14 +1,14 @@
-#include "sim/effects/sphere.hpp"
+#include "drape/sim/effects/sphere.hpp"
 
 #include <fmt/format.h>
 #include <cmath>
 #include <utility>
 
+#include "drape/sim/settings.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/contact/mesh_contacts.hpp"
 #include "sim/effects/effect_keys.hpp"
 #include "sim/parallel/vectors.hpp"
-#include "sim/settings.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

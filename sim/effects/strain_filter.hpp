@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/cloth.hpp"
-#include "sim/effects/strain_limit.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/effects/strain_limit.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

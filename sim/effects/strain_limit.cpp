@@ -1,10 +1,10 @@
-#include "sim/effects/strain_limit.hpp"
+#include "drape/sim/effects/strain_limit.hpp"
 
 #include <fmt/format.h>
 
 #include "core/keys.hpp"
+#include "drape/sim/settings.hpp"
 #include "sim/effects/strain_filter.hpp"
-#include "sim/settings.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

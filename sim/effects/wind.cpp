@@ -1,4 +1,4 @@
-#include "sim/effects/wind.hpp"
+#include "drape/sim/effects/wind.hpp"
 
 #include <Eigen/Geometry>
 #include <array>

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "core/error.hpp"
-#include "sim/settings.hpp"
+#include "drape/core/error.hpp"
+#include "drape/sim/settings.hpp"
 
 namespace drape {
 

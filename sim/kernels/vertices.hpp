@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "drape/sim/mesh.hpp"
 #include "sim/kernels/kernels.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "sim/kernels/vertices.hpp"
 #include "sim/linear/multifrontal_cholesky.hpp"
 #include "sim/linear/solve_tree.hpp"

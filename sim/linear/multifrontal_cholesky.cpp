@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/error.hpp"
 #include "core/machine.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "drape/sim/mesh.hpp"
 #include "sim/kernels/kernels.hpp"
 #include "sim/linear/solve_tree.hpp"
 #include "sim/linear/sparse_cholesky.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 

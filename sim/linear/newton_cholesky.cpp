@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "sim/kernels/kernels.hpp"
 #include "sim/linear/multifrontal_cholesky.hpp"
 

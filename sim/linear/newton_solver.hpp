@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "drape/sim/mesh.hpp"
 #include "sim/linear/constant_factor.hpp"
-#include "sim/mesh.hpp"
 #include "sim/step_objective.hpp"
 
 namespace drape {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/error.hpp"
-#include "sim/cloth.hpp"
+#include "drape/core/error.hpp"
+#include "drape/sim/cloth.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

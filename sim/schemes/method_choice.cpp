@@ -1,4 +1,4 @@
-#include "sim/schemes/method_choice.hpp"
+#include "drape/sim/schemes/method_choice.hpp"
 
 #include <algorithm>
 #include <cmath>

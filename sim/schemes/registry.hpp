@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "drape/sim/settings.hpp"
 #include "sim/schemes/scheme.hpp"
 #include "sim/schemes/stability_guard.hpp"
-#include "sim/settings.hpp"
 
 namespace drape {
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "sim/solvers/accuracy.hpp"
-#include "sim/state.hpp"
+#include "drape/sim/solvers/accuracy.hpp"
+#include "drape/sim/state.hpp"
 #include "sim/step_objective.hpp"
 #include "sim/system.hpp"
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "drape/sim/settings.hpp"
 #include "sim/schemes/scheme.hpp"
-#include "sim/settings.hpp"
 
 namespace drape {
 

@@ -1,4 +1,4 @@
-#include "sim/solvers/accuracy.hpp"
+#include "drape/sim/solvers/accuracy.hpp"
 
 #include <algorithm>
 #include <array>

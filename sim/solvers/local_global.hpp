@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <memory>
 
+#include "drape/sim/mesh.hpp"
 #include "sim/linear/constant_factor.hpp"
 #include "sim/linear/newton_solver.hpp"
-#include "sim/mesh.hpp"
 #include "sim/solvers/minimiser.hpp"
 
 namespace drape {

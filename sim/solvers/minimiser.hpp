@@ -4,9 +4,9 @@
 #include <limits>
 #include <memory>
 
+#include "drape/sim/solvers/accuracy.hpp"
+#include "drape/sim/state.hpp"
 #include "sim/linear/constant_factor.hpp"
-#include "sim/solvers/accuracy.hpp"
-#include "sim/state.hpp"
 #include "sim/step_objective.hpp"
 
 namespace drape {

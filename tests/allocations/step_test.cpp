@@ -7,15 +7,15 @@
 #include <atomic>
 #include <cstdlib>
 
-#include "sim/effects/bending.hpp"
-#include "sim/effects/body.hpp"
-#include "sim/effects/field.hpp"
-#include "sim/effects/ground.hpp"
-#include "sim/effects/moving_pins.hpp"
-#include "sim/effects/self_collision.hpp"
-#include "sim/effects/strain_limit.hpp"
-#include "sim/effects/wind.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/bending.hpp"
+#include "drape/sim/effects/body.hpp"
+#include "drape/sim/effects/field.hpp"
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
+#include "drape/sim/effects/self_collision.hpp"
+#include "drape/sim/effects/strain_limit.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/system.hpp"
 #include "tests/support/setups.hpp"
 

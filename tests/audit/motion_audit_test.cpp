@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "audit/motion_audit.hpp"
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape::audit {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "tests/support/audited_run.hpp"
 
 namespace drape::test {

@@ -13,7 +13,7 @@
 
 #include "check/check_scene.hpp"
 #include "check/golden.hpp"
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -11,10 +11,10 @@
 #include "check/compare_motion.hpp"
 #include "check/golden.hpp"
 #include "core/keys.hpp"
-#include "scene/scene.hpp"
-#include "sim/effects/effect.hpp"
-#include "sim/effects/moving_pins.hpp"
-#include "sim/effects/sphere.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/effects/effect.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
+#include "drape/sim/effects/sphere.hpp"
 #include "tests/support/random.hpp"
 
 namespace drape::random_changes {

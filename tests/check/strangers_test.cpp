@@ -6,8 +6,8 @@
 
 #include "check/golden.hpp"
 #include "check/manifest.hpp"
-#include "core/error.hpp"
 #include "core/hash.hpp"
+#include "drape/core/error.hpp"
 #include "tests/check/checked_scene.hpp"
 #include "tests/support/motion_bytes.hpp"
 #include "tests/support/random.hpp"

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/settings.hpp"
+#include "drape/sim/settings.hpp"
 #include "tests/cli/run_drape.hpp"
 #include "tests/cli/without_opengl.hpp"
 

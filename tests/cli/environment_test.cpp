@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "sim/settings.hpp"
+#include "drape/sim/settings.hpp"
 #include "tests/cli/run_drape.hpp"
 
 namespace drape::test {

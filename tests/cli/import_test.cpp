@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
 

@@ -18,8 +18,8 @@
 #include <thread>
 
 #include "cli/summary.hpp"
-#include "sim/mesh.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/mesh.hpp"
+#include "drape/sim/simulation.hpp"
 
 namespace drape {
 namespace {

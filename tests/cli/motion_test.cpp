@@ -7,7 +7,7 @@
 #include <random>
 #include <regex>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/methods.hpp"

@@ -8,7 +8,7 @@
 #include <functional>
 #include <numeric>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/random.hpp"

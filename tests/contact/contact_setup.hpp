@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include "sim/cloth.hpp"
-#include "sim/effects/bending.hpp"
-#include "sim/effects/body.hpp"
-#include "sim/effects/gravity.hpp"
-#include "sim/effects/ground.hpp"
-#include "sim/effects/self_collision.hpp"
-#include "sim/effects/sphere.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/effects/bending.hpp"
+#include "drape/sim/effects/body.hpp"
+#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/self_collision.hpp"
+#include "drape/sim/effects/sphere.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/schemes/stability_guard.hpp"
-#include "sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 #include "tests/support/setups.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string>
 
-#include "sim/effects/field.hpp"
-#include "sim/schemes/method_choice.hpp"
+#include "drape/sim/effects/field.hpp"
+#include "drape/sim/schemes/method_choice.hpp"
 #include "tests/contact/contact_setup.hpp"
 
 namespace drape::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/effects/damping.hpp"
+#include "drape/sim/effects/damping.hpp"
 #include "tests/contact/contact_setup.hpp"
 
 namespace drape::test {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/effects/strain_limit.hpp"
+#include "drape/sim/effects/strain_limit.hpp"
 #include "tests/contact/contact_setup.hpp"
 #include "tests/support/audited_run.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/effects/field.hpp"
+#include "drape/sim/effects/field.hpp"
 #include "tests/contact/contact_setup.hpp"
 
 namespace drape::test {

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 #include "tests/contact/contact_setup.hpp"
 
 namespace drape::test {

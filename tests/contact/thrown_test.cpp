@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/effects/moving_pins.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
 #include "tests/contact/contact_setup.hpp"
 #include "tests/support/audited_run.hpp"
 

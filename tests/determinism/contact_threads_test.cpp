@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "sim/effects/body.hpp"
-#include "sim/effects/ground.hpp"
-#include "sim/effects/self_collision.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/body.hpp"
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/self_collision.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
 // Contact search and response have the same bits for any number of threads.

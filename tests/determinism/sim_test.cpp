@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

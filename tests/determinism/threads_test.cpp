@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "sim/effects/wind.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/linear/constant_factor.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/schemes/registry.hpp"
-#include "sim/simulation.hpp"
 #include "sim/spring_network.hpp"
 #include "sim/step_objective.hpp"
 #include "sim/system.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "tests/support/decoded_film.hpp"
 #include "tests/support/encoder.hpp"
 #include "tests/support/file_size_limit.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "output/registry.hpp"
 #include "output/sink.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "output/png_encoder.hpp"
 #include "tests/support/decoded_film.hpp"
 #include "tests/support/encoder.hpp"

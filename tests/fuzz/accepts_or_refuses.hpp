@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <regex>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "tests/fuzz/accepts_or_refuses.hpp"
 
 namespace {

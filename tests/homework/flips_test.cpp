@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "sim/mesh.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/mesh.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

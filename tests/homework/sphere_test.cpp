@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

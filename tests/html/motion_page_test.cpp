@@ -6,7 +6,7 @@
 #include <cmath>
 #include <thread>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "output/html_writer.hpp"
 #include "output/png_encoder.hpp"
 #include "tests/html/html_page.hpp"

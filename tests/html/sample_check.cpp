@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "drape/render/renderer.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/simulation.hpp"
 #include "output/png_encoder.hpp"
-#include "render/renderer.hpp"
-#include "scene/scene.hpp"
-#include "sim/simulation.hpp"
 
 namespace drape::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "tests/motion/recorded.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/methods.hpp"

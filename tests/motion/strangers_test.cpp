@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "tests/motion/recorded.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/opened_blocks.hpp"

@@ -7,10 +7,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/error.hpp"
-#include "render/image.hpp"
-#include "render/overlay/caption.hpp"
-#include "render/overlay/pen.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/image.hpp"
+#include "drape/render/overlay/caption.hpp"
+#include "drape/render/overlay/pen.hpp"
 
 namespace drape::overlay_text {
 namespace {

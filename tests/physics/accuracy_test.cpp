@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/effects/wind.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/plain_springs.hpp"
 #include "tests/support/setups.hpp"
 

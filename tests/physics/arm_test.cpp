@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <tuple>
 
+#include "drape/sim/effects/body.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
+#include "drape/sim/simulation.hpp"
 #include "scene/mesh_value.hpp"
 #include "sim/collision/placed_mesh.hpp"
-#include "sim/effects/body.hpp"
-#include "sim/effects/moving_pins.hpp"
-#include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/effects/moving_pins.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 #include "tests/support/setups.hpp"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "drape/sim/effects/bending.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/bending/bending_energy.hpp"
-#include "sim/effects/bending.hpp"
-#include "sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 #include "tests/support/meshes.hpp"

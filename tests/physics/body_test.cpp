@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/effects/body.hpp"
-#include "sim/effects/ground.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/body.hpp"
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/physics/contact_settings.hpp"
 
 namespace drape::test {

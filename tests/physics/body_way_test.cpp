@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "sim/effects/body.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/body.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/physics/contact_settings.hpp"
 
 namespace drape::test {

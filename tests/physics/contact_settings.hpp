@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "sim/effects/gravity.hpp"
+#include "drape/sim/effects/gravity.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

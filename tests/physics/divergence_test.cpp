@@ -3,7 +3,7 @@
 #include <regex>
 #include <string>
 
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

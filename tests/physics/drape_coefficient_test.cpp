@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/cloth.hpp"
-#include "sim/effects/bending.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/effects/bending.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
 

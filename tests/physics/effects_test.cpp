@@ -2,8 +2,8 @@
 
 #include <variant>
 
-#include "sim/effects/wind.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "sim/effects/wind.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/plain_springs.hpp"
 #include "tests/support/setups.hpp"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

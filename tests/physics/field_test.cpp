@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/effects/field.hpp"
-#include "sim/effects/wind.hpp"
+#include "drape/sim/effects/field.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/formula.hpp"
-#include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::field_test {

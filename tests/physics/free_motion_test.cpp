@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/effects/wind.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/effects/bending.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/bending.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
 #include "tests/support/sheets_to_bend.hpp"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/plain_springs.hpp"
 #include "tests/support/setups.hpp"

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "sim/effects/ground.hpp"
-#include "sim/effects/moving_pins.hpp"
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/schemes/registry.hpp"
-#include "sim/simulation.hpp"
 #include "sim/system.hpp"
 #include "tests/support/setups.hpp"
 

@@ -6,10 +6,10 @@
 #include <functional>
 #include <map>
 
-#include "sim/effects/ground.hpp"
-#include "sim/effects/moving_pins.hpp"
-#include "sim/effects/wind.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/physics/contact_settings.hpp"
 #include "tests/support/plain_springs.hpp"
 

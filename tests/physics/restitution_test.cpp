@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/effects/ground.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/physics/contact_settings.hpp"
 
 namespace drape::test::restitution {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "sim/effects/bending.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/bending.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <memory>
 
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/self_collision.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/collision/distance.hpp"
-#include "sim/effects/ground.hpp"
-#include "sim/effects/self_collision.hpp"
-#include "sim/simulation.hpp"
 #include "tests/support/intersections.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"

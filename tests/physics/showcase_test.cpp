@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scene/scene.hpp"
-#include "sim/simulation.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/intersections.hpp"
 
 namespace drape::test {

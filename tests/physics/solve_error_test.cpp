@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "sim/effects/wind.hpp"
-#include "sim/simulation.hpp"
-#include "sim/solvers/accuracy.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
+#include "drape/sim/solvers/accuracy.hpp"
 #include "sim/system.hpp"
 #include "tests/support/setups.hpp"
 

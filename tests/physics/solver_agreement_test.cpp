@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
+#include "drape/sim/simulation.hpp"
 #include "scene/mesh_value.hpp"
-#include "sim/simulation.hpp"
 #include "sim/step_objective.hpp"
 #include "tests/support/cloths.hpp"
 

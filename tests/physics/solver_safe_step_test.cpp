@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "tests/support/cloths.hpp"
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/effects/damping.hpp"
-#include "sim/effects/gravity.hpp"
-#include "sim/effects/strain_limit.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/damping.hpp"
+#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/strain_limit.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/system.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <complex>
 
-#include "sim/effects/field.hpp"
-#include "sim/effects/wind.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/field.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/solvers/local_global.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "drape/sim/tracks.hpp"
 #include "scene/tables.hpp"
-#include "sim/tracks.hpp"
 #include "tests/support/random.hpp"
 
 namespace drape::test {

@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "core/files.hpp"
+#include "drape/sim/simulation.hpp"
 #include "run/run_scene.hpp"
-#include "sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 #include "tests/random/random_scene.hpp"

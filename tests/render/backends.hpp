@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/settings.hpp"
 #include "render/gl/context.hpp"
 #include "render/gl/inspect.hpp"
-#include "render/settings.hpp"
 
 namespace drape::test {
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 #include <link.h>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/simulation.hpp"
 #include "render/gl/context.hpp"
-#include "scene/scene.hpp"
-#include "sim/simulation.hpp"
 #include "tests/render/backends.hpp"
 #include "tests/render/drawing.hpp"
 

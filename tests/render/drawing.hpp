@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "render/renderer.hpp"
-#include "sim/mesh.hpp"
+#include "drape/render/renderer.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape::test {
 

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <vector>
 
+#include "drape/render/view.hpp"
 #include "render/shadows.hpp"
 #include "render/shot.hpp"
-#include "render/view.hpp"
 #include "tests/render/drawing.hpp"
 
 namespace drape::test {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rotation.hpp"
+#include "drape/core/rotation.hpp"
 #include "tests/render/drawing.hpp"
 #include "tests/support/random.hpp"
 

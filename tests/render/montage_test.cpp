@@ -1,4 +1,4 @@
-#include "render/image.hpp"
+#include "drape/render/image.hpp"
 
 #include <gtest/gtest.h>
 

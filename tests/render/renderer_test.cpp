@@ -1,4 +1,4 @@
-#include "render/renderer.hpp"
+#include "drape/render/renderer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "render/gl/context.hpp"
 #include "render/gl/inspect.hpp"
 #include "tests/render/drawing.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "render/image.hpp"
+#include "drape/core/error.hpp"
+#include "drape/render/image.hpp"
 #include "tests/render/drawing.hpp"
 #include "tests/support/files.hpp"
 

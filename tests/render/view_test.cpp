@@ -1,4 +1,4 @@
-#include "render/view.hpp"
+#include "drape/render/view.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/wind.hpp"
 #include "run/run_scene.hpp"
 #include "run/statistics.hpp"
-#include "sim/effects/ground.hpp"
-#include "sim/effects/wind.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

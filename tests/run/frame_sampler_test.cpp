@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "run/frame_source.hpp"
 #include "run/run_scene.hpp"
 #include "tests/support/setups.hpp"

@@ -6,8 +6,8 @@
 
 #include <vector>
 
+#include "drape/sim/effects/gravity.hpp"
 #include "run/run_scene.hpp"
-#include "sim/effects/gravity.hpp"
 
 namespace drape {
 namespace {

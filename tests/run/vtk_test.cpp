@@ -3,7 +3,7 @@
 
 #include <Eigen/LU>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 #include "tests/support/written_motion.hpp"
 
 namespace drape::vtk {

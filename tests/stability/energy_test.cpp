@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/setups.hpp"
 #include "tests/support/step_ledger.hpp"

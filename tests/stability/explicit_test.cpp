@@ -7,7 +7,7 @@
 #include <cmath>
 #include <regex>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"

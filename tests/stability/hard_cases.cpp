@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
 

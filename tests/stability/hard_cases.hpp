@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "tests/support/methods.hpp"
 
 namespace drape::test {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/scene.hpp"
-#include "sim/simulation.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 #include "tests/stability/traps.hpp"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "sim/effects/gravity.hpp"
+#include "drape/sim/effects/gravity.hpp"
 #include "sim/schemes/sdirk2.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"

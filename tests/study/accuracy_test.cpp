@@ -1,11 +1,11 @@
 #include "study/accuracy.hpp"
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "sim/effects/ground.hpp"
+#include "drape/sim/effects/ground.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/animation.hpp"
 #include "study/solve_error.hpp"

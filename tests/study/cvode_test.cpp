@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/scene.hpp"
-#include "sim/effects/gravity.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/effects/gravity.hpp"
 #include "study/reference.hpp"
 #include "study/solve_error.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "reports/chart.hpp"
 #include "study/stability_map.hpp"
 #include "tests/support/files.hpp"

@@ -1,5 +1,5 @@
 #include "study/measure.hpp"
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 
 #include <gtest/gtest.h>
 

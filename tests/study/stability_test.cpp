@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "study/stability_map.hpp"
 

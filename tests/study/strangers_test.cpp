@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "study/accuracy_runs.hpp"
 #include "study/report.hpp"
 #include "tests/study/invented_study.hpp"

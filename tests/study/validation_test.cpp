@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "study/known_answers.hpp"
 #include "study/validation_measures.hpp"
 #include "study/validation_report.hpp"

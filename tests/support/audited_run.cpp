@@ -5,7 +5,7 @@
 
 #include "audit/crossings.hpp"
 #include "audit/passages.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 
 namespace drape::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "audit/motion_audit.hpp"
-#include "sim/settings.hpp"
+#include "drape/sim/settings.hpp"
 
 namespace drape::test {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/cloth.hpp"
-#include "sim/effects/gravity.hpp"
-#include "sim/effects/sphere.hpp"
-#include "sim/settings.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/sphere.hpp"
+#include "drape/sim/settings.hpp"
 
 namespace drape::test {
 

@@ -6,7 +6,7 @@
 #include <opencv2/videoio.hpp>
 #include <vector>
 
-#include "render/image.hpp"
+#include "drape/render/image.hpp"
 
 namespace drape::test {
 

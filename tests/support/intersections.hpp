@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape::test {
 

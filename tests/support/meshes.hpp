@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "sim/settings.hpp"
+#include "drape/sim/settings.hpp"
 
 namespace drape::test {
 

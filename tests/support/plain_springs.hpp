@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/cloth.hpp"
+#include "drape/sim/cloth.hpp"
 #include "sim/system.hpp"
 
 namespace drape::test {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"
 

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/effects/damping.hpp"
-#include "sim/effects/gravity.hpp"
-#include "sim/effects/sphere.hpp"
-#include "sim/settings.hpp"
+#include "drape/sim/effects/damping.hpp"
+#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/sphere.hpp"
+#include "drape/sim/settings.hpp"
 #include "tests/support/methods.hpp"
 
 namespace drape::test {

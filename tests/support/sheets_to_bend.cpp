@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/cloth.hpp"
-#include "sim/mesh.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape::test {
 

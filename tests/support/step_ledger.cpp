@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/solvers/accuracy.hpp"
+#include "drape/sim/solvers/accuracy.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 

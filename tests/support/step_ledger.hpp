@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <limits>
 
-#include "sim/simulation.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/system.hpp"
 
 namespace drape::test {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/image.hpp"
+#include "drape/render/image.hpp"
 
 namespace drape::test {
 

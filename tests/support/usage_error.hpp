@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 
 namespace drape::test {
 

@@ -8,8 +8,8 @@
 #include <random>
 #include <set>
 
+#include "drape/sim/effects/body.hpp"
 #include "sim/collision/candidates.hpp"
-#include "sim/effects/body.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
 

@@ -8,8 +8,8 @@
 #include <ostream>
 #include <string>
 
-#include "sim/effects/bending.hpp"
-#include "sim/effects/ground.hpp"
+#include "drape/sim/effects/bending.hpp"
+#include "drape/sim/effects/ground.hpp"
 #include "sim/linear/newton_cholesky.hpp"
 #include "sim/linear/newton_solver.hpp"
 #include "sim/step_objective.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 #include "tests/support/scene_folder.hpp"
 #include "tests/support/setups.hpp"
 

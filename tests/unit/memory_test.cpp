@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/machine.hpp"
+#include "drape/core/error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace drape::test {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "drape/sim/mesh.hpp"
 #include "scene/mesh_value.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 namespace {

@@ -1,17 +1,17 @@
 // The default method, and steps divided into substeps.
 
-#include "sim/schemes/method_choice.hpp"
+#include "drape/sim/schemes/method_choice.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim/effects/field.hpp"
-#include "sim/effects/ground.hpp"
-#include "sim/effects/moving_pins.hpp"
-#include "sim/effects/self_collision.hpp"
-#include "sim/effects/wind.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/field.hpp"
+#include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
+#include "drape/sim/effects/self_collision.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 #include "tests/support/setups.hpp"

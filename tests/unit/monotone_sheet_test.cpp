@@ -7,8 +7,8 @@
 
 #include <cmath>
 
+#include "drape/sim/mesh.hpp"
 #include "sim/collision/candidates.hpp"
-#include "sim/mesh.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
 

@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
+#include "drape/core/error.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"

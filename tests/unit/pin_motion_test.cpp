@@ -1,6 +1,6 @@
 // Turning pins, and pins attached to a mesh.
 
-#include "sim/tracks.hpp"
+#include "drape/sim/tracks.hpp"
 
 #include <gtest/gtest.h>
 

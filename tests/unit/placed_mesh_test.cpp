@@ -8,8 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "drape/sim/effects/body.hpp"
 #include "sim/collision/placed_mesh.hpp"
-#include "sim/effects/body.hpp"
 
 namespace drape::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/rotation.hpp"
+#include "drape/core/rotation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "sim/effects/body.hpp"
-#include "sim/effects/sphere.hpp"
-#include "sim/simulation.hpp"
+#include "drape/sim/effects/body.hpp"
+#include "drape/sim/effects/sphere.hpp"
+#include "drape/sim/simulation.hpp"
 #include "sim/start_overlap.hpp"
 #include "tests/support/scene_folder.hpp"
 

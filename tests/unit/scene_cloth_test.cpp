@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "scene/selection.hpp"
 #include "tests/support/scene_folder.hpp"
 

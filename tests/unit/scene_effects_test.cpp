@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "drape/sim/simulation.hpp"
 #include "scene/usd/motion.hpp"
-#include "sim/simulation.hpp"
 #include "sim/system.hpp"
 #include "tests/support/scene_folder.hpp"
 

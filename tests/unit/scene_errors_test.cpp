@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/error.hpp"
-#include "scene/scene.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
 #include "tests/support/scene_folder.hpp"
 #include "tests/support/usage_error.hpp"
 

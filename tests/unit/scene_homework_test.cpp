@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

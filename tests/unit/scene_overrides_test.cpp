@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
 #include "sim/system.hpp"
 #include "tests/support/scene_folder.hpp"
 

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <string>
 
+#include "drape/sim/cloth.hpp"
 #include "scene/tables.hpp"
 #include "scene/values.hpp"
-#include "sim/cloth.hpp"
 #include "tests/support/files.hpp"
 
 namespace drape {

@@ -6,8 +6,8 @@
 #include <random>
 #include <string>
 
-#include "core/error.hpp"
-#include "scene/scene.hpp"
+#include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
-#include "scene/scene.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
 #include "scene/selection.hpp"
-#include "sim/effects/moving_pins.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape::scene_selection {

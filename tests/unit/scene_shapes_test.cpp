@@ -6,9 +6,9 @@
 #include <map>
 #include <numbers>
 
+#include "drape/sim/body_shape.hpp"
+#include "drape/sim/cloth.hpp"
 #include "scene/mesh_value.hpp"
-#include "sim/body_shape.hpp"
-#include "sim/cloth.hpp"
 #include "tests/support/scene_folder.hpp"
 
 // Shapes defined by a few numbers: their geometry, their keys in scenes, and errors.

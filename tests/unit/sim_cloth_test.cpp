@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "sim/cloth.hpp"
+#include "drape/sim/cloth.hpp"
 #include "sim/linear/sparse_cholesky.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"

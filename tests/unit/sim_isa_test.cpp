@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
+#include "drape/sim/settings.hpp"
 #include "sim/kernels/kernels.hpp"
-#include "sim/settings.hpp"
 #include "tests/support/usage_error.hpp"
 
 namespace drape::test {

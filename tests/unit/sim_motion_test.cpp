@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/effects/wind.hpp"
-#include "sim/tracks.hpp"
+#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/tracks.hpp"
 
 namespace drape {
 namespace {

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "drape/sim/simulation.hpp"
 #include "sim/schemes/backward_euler.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/schemes/substeps.hpp"
-#include "sim/simulation.hpp"
 #include "sim/spring_network.hpp"
 #include "sim/system.hpp"
 #include "tests/support/cloths.hpp"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "scene/scene.hpp"
-#include "sim/effects/gravity.hpp"
-#include "sim/simulation.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/simulation.hpp"
 #include "tests/support/usage_error.hpp"
 
 namespace drape::test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/effects/bending.hpp"
+#include "drape/sim/effects/bending.hpp"
 #include "sim/linear/newton_cholesky.hpp"
 #include "sim/linear/newton_solver.hpp"
 #include "sim/step_objective.hpp"

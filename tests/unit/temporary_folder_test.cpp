@@ -10,7 +10,7 @@
 #include <iterator>
 #include <optional>
 
-#include "core/error.hpp"
+#include "drape/core/error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace drape {

@@ -1,4 +1,4 @@
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 
 #include <gtest/gtest.h>
 

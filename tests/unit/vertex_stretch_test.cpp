@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "sim/mesh.hpp"
+#include "drape/sim/mesh.hpp"
 
 namespace drape {
 namespace {

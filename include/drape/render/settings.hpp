@@ -1,0 +1,100 @@
+#pragma once
+
+// Example:
+//   drape::Camera camera{.azimuth = -60, .elevation = 20};
+//   drape::Look look{.color = {0.2, 0.3, 0.8}, .mesh_lines = true};
+
+// Example:
+//   std::printf("%s", drape::backend_name(drape::GlBackend::osmesa));
+
+#include <Eigen/Core>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "drape/core/rgb.hpp"
+
+namespace drape {
+
+/// Camera of the picture. With a position, it looks from there to `target`. Without one, it is placed so that the whole
+/// motion is in view from the direction of `azimuth` and `elevation`. If one of these is absent, well_placed() chooses
+/// a direction that shows the motion well.
+struct Camera {
+  static constexpr double usual_azimuth = -60, usual_elevation = 20;  ///< defaults [degrees]
+
+  std::optional<Eigen::Vector3d> position = {};  ///< [m]
+  std::optional<Eigen::Vector3d> target = {};    ///< [m]; absent: the middle of the motion
+  Eigen::Vector3d up{0, 0, 1};
+  double field_of_view = 30;           ///< of the picture's height [degrees]
+  std::optional<double> azimuth = {};  ///< from the target to the camera in the xy plane, from +x towards +y [degrees]
+  std::optional<double> elevation = {};  ///< of that direction above the xy plane [degrees]
+  double margin = 0.06;                  ///< free border around the motion, as a fraction of the picture
+  bool follow = false;                   ///< stays near the moving objects instead of showing the whole motion at once
+  double orbit = 0;                      ///< angle around the target, about `up`, over the whole film [degrees]
+  double outside = 0;  ///< fraction of the frames whose farthest points may leave the picture of a fixed camera
+};
+
+/// Quantity that the colours of the cloth's vertices show instead of texture and colour. In the order of the names in a
+/// scene.
+enum class ColorBy { stretch, speed, curvature };
+
+/// The look of a picture. Colours are sRGB.
+struct Look {
+  std::filesystem::path texture = {};  ///< an image file; empty: the plain `color`
+  Rgb color{0.85, 0.65, 0.13};         ///< colour of the cloth without a texture
+  int anisotropy = 1;                  ///< of the texture's filter, 1: off; slow in software
+  bool mesh_lines = false;             ///< draw the triangles' edges as thin dark lines
+  Rgb line_color{0.16, 0.12, 0.06};
+  double line_width = 0.8;                 ///< [pixels]
+  std::optional<Rgb> background = {};      ///< at the bottom of the picture; everywhere if the next is absent
+  std::optional<Rgb> background_top = {};  ///< at the top: a gradient; both absent: studio grey
+  Rgb sphere_color{0.75, 0.04, 0.04};
+  Rgb body_color{0.47, 0.52, 0.58};
+  Rgb ground_color{0.84, 0.83, 0.81};
+  double ground_grid = 0.5;  ///< spacing of the lines on the ground [m]; 0: no lines
+  int samples = 4;           ///< per pixel: 1 (off), 2, 4
+  std::optional<ColorBy> color_by = {};
+  std::optional<double> color_limit = {};  ///< value of the last colour: a fraction, [m/s] or [1/m]
+  bool shadows = true;                     ///< cast by cloth and spheres in the key light
+  bool ambient_occlusion = true;
+  double translucency = 0.3;                 ///< fraction of the key light that shines through the cloth
+  double thickness = 0.003;                  ///< thickness of the cloth's hem [m]; 0: no hem
+  double exposure = 1;                       ///< factor of all light
+  std::optional<double> key_azimuth = {};    ///< of the key light, as the camera's; absent: moves with the camera
+  std::optional<double> key_elevation = {};  ///< likewise [degrees]
+  bool backdrop = false;                     ///< a floor below the picture's lower edge, if the scene has no ground
+
+  /// Background at the bottom and at the top of the picture. The default is a studio grey: darker than white cloth in
+  /// light, brighter than any cloth in shade, and in a colour that cloth rarely has.
+  [[nodiscard]] Rgb lower_background() const { return background.value_or(Rgb{0.84, 0.85, 0.86}); }
+  [[nodiscard]] Rgb upper_background() const {
+    return background_top.value_or(background ? *background : Rgb{0.66, 0.71, 0.77});
+  }
+};
+
+/// Size [pixels], frame rate, and playback speed of the film relative to the scene's time.
+struct Video {
+  double fps = 25;
+  double speed = 1;
+  Eigen::Vector2i size{480, 400};
+
+  /// Returns the number of the motion's last frame. Frame k shows k·speed/fps seconds.
+  /// @param duration length of the motion [s]
+  [[nodiscard]] double last_frame(double duration) const {
+    // Both are products of decimal fractions: rounding must not drop a frame at the motion's end.
+    constexpr double rounding = 1e-9;
+    return std::floor(duration / (speed / fps) + rounding);
+  }
+};
+
+/// Source of the OpenGL context. Both draw the same bytes on top of Mesa's software renderer.
+enum class GlBackend {
+  automatic,  ///< the first available of the following
+  osmesa,     ///< OSMesa: Mesa up to 25.0
+  egl         ///< EGL without a surface
+};
+
+/// Returns "auto", "osmesa" or "egl".
+const char* backend_name(GlBackend backend);
+
+}  // namespace drape

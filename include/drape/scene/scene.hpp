@@ -1,0 +1,198 @@
+#pragma once
+
+// Example:
+//   const drape::Scene scene = drape::load_scene("scene.toml", {"cloth.stiffness=300"});
+//   drape::Simulation simulation(scene.simulation);
+//   while (simulation.state().step < scene.step_count()) simulation.step();
+
+// Example:
+//   const auto scene = drape::load_scene("scene.toml");
+//   std::puts(drape::step_method_name(scene.simulation.integrator.step_method()).c_str());  // "quasi-newton"
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drape/render/overlay/caption.hpp"
+#include "drape/render/settings.hpp"
+#include "drape/scene/document.hpp"
+#include "drape/scene/portable.hpp"
+#include "drape/sim/schemes/method_choice.hpp"
+#include "drape/sim/settings.hpp"
+
+namespace drape {
+
+/// Largest difference between two pictures that still count as equal up to rounding. All limits must hold.
+struct PictureLimits {
+  int channel = 3;        ///< largest difference of a pixel in any channel, of 255
+  double pixels = 0.005;  ///< largest fraction of pixels that differ at all
+  double flip = 0.05;     ///< largest FLIP error of a pixel
+};
+
+/// A rectangle of golden pixels: column and row of its top left one, width and height.
+using PixelRectangle = std::array<int, 4>;
+
+/// The [check] table of a scene: which golden frames and motion to compare, and with which tolerances.
+struct CheckSettings {
+  std::vector<int> frames;              ///< film frames to compare, ascending; empty: chosen automatically, where
+                                        ///< something happens
+  std::optional<Eigen::Vector2i> size;  ///< size of the golden pictures [pixels]; absent: film size
+  double window_time = 0.4;             ///< interval between restarts of the motion from a golden state [s]
+  double motion_tolerance = 1e-6;       ///< largest distance of a vertex from its golden position [m]
+  PictureLimits limits;
+  std::optional<double> time;          ///< largest ratio of the first steps' time to the golden's; absent: not measured
+  std::vector<PixelRectangle> ignore;  ///< rectangles left out of the comparison in every picture
+  std::vector<int> ignore_frames;      ///< frames whose pictures are not compared
+};
+
+/// A named value for texts about a scene: "integrator.tolerance".
+struct SceneField {
+  std::string path;
+  FieldValue value;
+  bool operator==(const SceneField&) const = default;
+};
+
+/// A key of a scene and its value as text.
+struct SceneValue {
+  std::string key, text;
+};
+
+/// Trade-off between detail and drawing time, see apply_quality().
+enum class Quality { draft, film, print };
+
+/// A scene: plain data, complete and checked.
+struct Scene {
+  std::filesystem::path file;
+  std::string name;  ///< the file's name without its ending: "5" for scenes/homework/5.toml
+  SimulationSettings simulation;
+  double duration = 5;                    ///< [s]
+  std::vector<std::array<float, 2>> uvs;  ///< texture coordinates of the cloth per triangle corner, see Mesh::uvs
+  Camera camera;
+  Look look;
+  Video video;
+  CaptionSettings caption;
+  OverlaySettings overlay;
+  CheckSettings check;
+  std::vector<std::filesystem::path> inputs;  ///< every file read: the scene itself, meshes, tracks, the texture
+  std::string texture_location;               ///< place of the texture's name, for messages: "scene.toml:9:11"
+  std::vector<SceneField> fields;             ///< every key with its value
+  std::string caption_place;                  ///< place of the caption's text, for messages
+  /// Hash of the file and the overrides, except [check], [caption] and [overlay]; 16 hexadecimal digits. Comments, the
+  /// order of keys and the notation of numbers do not change it.
+  std::string digest;
+  std::vector<SceneValue> tables;      ///< values in the tables that affect the motion, see physics_values()
+  PortableScene portable;              ///< the scene and all its input files
+  std::vector<std::string> warnings;   ///< warnings about valid but unlikely values: "scene.toml:2:8: …"
+  std::optional<MethodChoice> choice;  ///< automatic choice of a method if none is named
+  std::optional<Quality> quality;      ///< quality that its numbers were adjusted for
+
+  /// Returns the number of steps that cover the duration: duration/step, rounded to the nearest whole number.
+  [[nodiscard]] std::int64_t step_count() const;
+};
+
+/// Cells of a scene's grid.
+enum class Cells {
+  of_quality,  ///< as written, or coarsened for a draft, see coarsen_grid()
+  as_written,
+  of_draft  ///< coarsened, whatever the quality is
+};
+
+/// Reads a scene file.
+/// @param overrides "key.path=value", applied in order as if the file contained them, and checked like it; the value is
+///                  any TOML value, or a bare word, which is a string
+/// @throws UsageError whose message lists every problem of the file and the overrides, a line each:
+///         "file:line:col: message", or "--set key.path=value: message"
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                 Cells cells = Cells::of_quality);
+
+/// Makes a scene from a parsed document.
+/// @param document a table; messages name its places. Line 0: made by a program, without a text
+/// @param file     file name for messages; files named in the scene are looked up in its folder
+/// @throws UsageError as load_scene()
+Scene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                 Cells cells = Cells::of_quality);
+
+/// Returns the data folder, which holds textures/, shaders/ and scenes/: the one set by use_data_folder(), else the one
+/// installed with the program or the library (share/drape), else the source tree of the build.
+/// @throws UsageError if there is none
+std::filesystem::path data_folder();
+
+/// Sets the result of data_folder(); an empty path restores the search. Do not call it while another thread reads
+/// scenes or draws.
+/// @throws UsageError if there is no such folder
+void use_data_folder(const std::filesystem::path& folder);
+
+/// Names of the methods in scenes, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 6> method_names{"semi-implicit", "implicit", "liu13",
+                                                              "quasi-newton",  "verlet",   "auto"};
+static_assert(method_names.size() == method_count + 1);
+
+inline std::string method_name(Method method) { return std::string(method_names[static_cast<std::size_t>(method)]); }
+
+/// Names of the schemes in scenes, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 2> scheme_names{"backward-euler", "sdirk2"};
+
+inline std::string scheme_name(TimeScheme scheme) {
+  return std::string(scheme_names[static_cast<std::size_t>(scheme)]);
+}
+
+/// Returns for example "verlet", "liu13", "liu13-sdirk2".
+inline std::string step_method_name(StepMethod how) {
+  return method_name(how.method) + (how.scheme == TimeScheme::sdirk2 ? "-sdirk2" : "");
+}
+
+/// Names of the stopping rules in scenes, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 3> stopping_rule_names{"change", "gradient", "error"};
+
+inline std::string stopping_rule_name(StoppingRule rule) {
+  return std::string(stopping_rule_names[static_cast<std::size_t>(rule)]);
+}
+
+/// Returns true if a document's quality is draft.
+bool says_draft(const TomlValue& document);
+
+/// Halves the columns and rows of a draft's grid of more than 20×20 cells. Grids with pins chosen by number or position
+/// stay; corners, edges and borders exist on every grid. A grid from the command line stays too.
+/// @param document document of a scene, after overrides
+void coarsen_grid(TomlValue& document);
+
+/// Returns the cells that another scene needs in order to draw a motion of this one.
+inline Cells cells_of(const Scene& scene) {
+  return scene.quality == Quality::draft ? Cells::of_draft : Cells::as_written;
+}
+
+/// Adjusts settings that trade time for detail to the scene's quality, relative to their values.
+///   draft  half the size, at most 12.5 frames per second, one sample, no ambient occlusion, ten times the given
+///          tolerance
+///   print  twice the size, at most 8192 pixels, four samples, textures filtered 16-fold
+/// A tolerance derived from an accuracy stays. Values from the command line stay.
+/// @param given returns true if the command line gives a key, "video.size"
+void apply_quality(Scene& scene, const std::function<bool(const char*)>& given);
+
+/// Returns every value of a scene that affects the motion, key by key. A key that is left out equals its default.
+/// Camera, look, film and duration are not included. Long values (a mesh, a track) are hashed.
+std::vector<SceneValue> physics_values(const Scene& scene);
+
+/// Computes a hash of these values: 16 hexadecimal digits.
+std::string physics_hash(const std::vector<SceneValue>& values);
+
+/// Describes the differences, a line for each key: "cloth.mass: 1, and 2 in look.toml".
+/// @param name name of the source of `b`
+std::string physics_difference(const std::vector<SceneValue>& a, const std::vector<SceneValue>& b,
+                               const std::string& name);
+
+struct TableType;
+struct ReadEffect;
+
+/// Returns the part of physics_values() that tables contain.
+/// @param folder folder of the files that effects name
+std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, const std::vector<ReadEffect>& effects,
+                                          const std::filesystem::path& folder);
+
+}  // namespace drape

@@ -1,0 +1,92 @@
+#pragma once
+
+// Example:
+//   const drape::Mesh rest = drape::make_grid(10, 10);
+//   drape::Mesh start = rest;
+//   start.positions.col(2).array() += 1;  // a metre above where it was cut
+//   drape::Cloth cloth = drape::make_cloth(start, rest, 0.5, 100, {});
+//   drape::share_mass_by_area(0.3, cloth);  // 0.3 kg/m²
+
+// Example:
+//   for (const drape::Fabric& fabric : drape::fabrics()) std::printf("%g kg/m2", fabric.density);
+
+#include <Eigen/Core>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "drape/sim/mesh.hpp"
+
+namespace drape {
+
+/// A spring between two vertices: E = stiffness/2 · (‖x_i − x_j‖ − rest_length)².
+struct Spring {
+  int i = 0, j = 0;        ///< i < j
+  double rest_length = 0;  ///< [m]
+  double stiffness = 0;    ///< [N/m]
+};
+
+/// The initial state of a cloth, constant during a simulation.
+struct Cloth {
+  Vertices positions;   ///< n×3 [m]
+  Vertices velocities;  ///< n×3 [m/s]
+  Vertices rest;        ///< n×3, unstrained shape [m]
+  std::vector<Triangle> triangles;
+  std::vector<Spring> springs;
+  Eigen::VectorXd masses;  ///< n, all positive [kg]
+  std::vector<int> pins;   ///< fixed vertices, ascending, without duplicates
+
+  [[nodiscard]] int vertex_count() const { return static_cast<int>(positions.rows()); }
+};
+
+/// Returns the diagonal of the cloth's initial bounding box, or the largest rest length if longer [m].
+double size_of(const Cloth& cloth);
+
+/// Returns the homework's cloth: one spring per edge of `rest`, with the edge's length as rest length. All springs have
+/// the same stiffness, and all vertices the same mass.
+/// @param start    mesh with the initial positions; the cloth starts at rest
+/// @param rest     the same triangles in the unstrained shape
+/// @param mass     of the whole cloth, positive [kg]
+/// @param stiffness of every spring, positive [N/m]
+/// @param pins     fixed vertices, in any order
+/// @throws std::invalid_argument if start and rest do not match, or a triangle's corner or a pin is not a vertex
+Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffness, std::vector<int> pins);
+
+/// Gives every vertex a third of the mass of each rest triangle at it. So fine and coarse parts of a sheet have the
+/// same mass per area.
+/// @param density of the cloth, positive [kg/m²]
+/// @throws std::invalid_argument if a vertex has no triangle with an area
+void share_mass_by_area(double density, Cloth& cloth);
+
+/// Gives every spring the stiffness E·A/l², with rest length l and area A of the rest triangles at it (Van Gelder 1998,
+/// "Approximate simulation of elastic membranes by triangulated spring meshes"). So a force stretches a sheet by the
+/// same amount on fine and coarse meshes. The meaning of E depends on the mesh. Springs at angles θ store ½E·3⟨ε(θ)²⟩
+/// per area if edges have all directions equally. That is the uniaxial stiffness E with a Poisson's ratio of 1/3. On a
+/// grid with one diagonal it is E along the edges, without contraction, if shear is free, and 1.2 E if shear is held
+/// (docs/scene-format.md).
+/// @param modulus E, force per width and strain, positive [N/m]
+/// @throws std::invalid_argument if a spring has no triangle with an area
+void stiffen_by_area(double modulus, Cloth& cloth);
+
+/// A fabric, as represented by a cloth with one density, modulus and rigidity in all directions.
+///
+/// Most are measured by Wang, O'Brien and Ramamoorthi 2011, "Data-Driven Elastic Models for Cloth: Modeling and
+/// Measurement", whose tables of ten fabrics come with ARCSim. Those are anisotropic and change with strain; these
+/// values hold for small strains. The modulus is the geometric mean of weft and warp, E = 2√(c₁₁·c₂₂) (their energy is
+/// ½·2c·ε²). The rigidity is the mean over directions at the least curvature measured, D = (B₀ + 2·B₄₅ + B₉₀)/4.
+///
+/// The everyday fabrics are estimates without a measured sample. Canvas, cotton, silk and wool stretch by 1, 2, 3 and 4
+/// % at 98 N/m. Paper follows from its thickness and Young's modulus. docs/scene-format.md lists the sources.
+struct Fabric {
+  std::string_view name;    ///< name in scenes
+  std::string_view sample;  ///< name in the paper
+  double density;           ///< [kg/m²]
+  double modulus;           ///< E, force per width and strain [N/m]
+  double rigidity;          ///< D, bending rigidity [N·m]
+  bool measured = true;     ///< false: an estimate
+};
+
+/// Returns all fabrics, sorted by name.
+std::span<const Fabric> fabrics();
+
+}  // namespace drape

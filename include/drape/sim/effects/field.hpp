@@ -1,0 +1,32 @@
+#pragma once
+
+// Example:
+//   drape::Effects effects{drape::Field{.acceleration = {"-x", "-y", "0"}}};
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "drape/sim/effects/effect.hpp"
+
+namespace drape {
+
+/// Acceleration field by formula, Field{.acceleration = {"-x", "-y", "0"}}: centrifugal, an attractor, a swirl.
+struct Field {
+  static constexpr std::string_view name = "field";
+  static constexpr EffectCost cost{.evaluated = 0.1e-6, .solved = 0.3e-6};
+  static constexpr bool repeatable = true;
+
+  /// Components along x, y and z, each a formula in x, y, z, t, vx, vy and vz, see FormulaField [m/s²].
+  std::array<std::string, 3> acceleration = {"0", "0", "0"};
+  /// Largest change of the acceleration with the position, √λ_max of JᵀJ with the derivative J [1/s²]. Explicit methods
+  /// need it for formulas that depend on the position, to find their largest stable step.
+  std::optional<double> stiffness_bound = {};
+
+  void describe(Keys& keys);
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const;
+  /// @throws std::invalid_argument if a formula is invalid
+  void install(System& system) const;
+};
+
+}  // namespace drape

@@ -1,0 +1,26 @@
+#pragma once
+
+// Example:
+//   drape::Effects effects{drape::SelfCollision{.thickness = 0.02}};
+
+#include "drape/sim/effects/effect.hpp"
+
+namespace drape {
+
+/// Contact of the cloth with itself, so that it does not pass through itself, see SelfContacts.
+struct SelfCollision {
+  static constexpr std::string_view name = "self_collision";
+  static constexpr EffectCost cost{.evaluated = 0.6e-6, .solved = 4.0e-6};
+  static constexpr bool touches = true;
+
+  double thickness = 0.01;  ///< distance between layers of the cloth [m]
+  double friction = 0.3;    ///< Coulomb's coefficient between layers
+
+  bool allow_overlap = false;  ///< whether the cloth may begin across itself, and is separated step by step
+
+  void describe(Keys& keys);
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const;
+  void install(System& system) const;
+};
+
+}  // namespace drape
