@@ -234,8 +234,12 @@ void SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices
 }
 
 void SpringNetwork::compute_blocks(const Vertices& x, double concavity, Blocks& blocks) const {
-  blocks.across.resize(static_cast<Eigen::Index>(stiffness_.size() + gathered_.size()));
-  blocks.along.resize(blocks.across.size(), 3);
+  const auto size = static_cast<Eigen::Index>(stiffness_.size() + gathered_.size());
+  if (blocks.across.size() != size) {
+    // No spring has the entries between the bands, but add_diagonal() computes with them.
+    blocks.across = Eigen::VectorXd::Zero(size);
+    blocks.along = Vertices::Ones(size, 3);
+  }
   const auto kept = [&](std::size_t begin) {
     const auto at = static_cast<Eigen::Index>(begin);
     return SpringBlocks{blocks.across.data() + at, columns(blocks.along, at)};

@@ -209,7 +209,7 @@ TEST(Colours, OfMethodsDifferForColourBlindEyes) {
       {{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}};
   constexpr std::array<std::array<double, 3>, 3> deuteranope{
       {{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}};
-  const std::string css = test::content(DRAPE_SOURCE_DIR "/html/theme.css");
+  const std::string css = test::content(DRAPE_SOURCE_DIR "/reports/theme.css");
   for (const std::size_t theme : {css.find(":root"), css.rfind(":root")}) {
     std::vector<std::string> colors;
     for (int method = 0; method < 6; ++method) {
