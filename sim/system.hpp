@@ -59,12 +59,22 @@ inline void add_row_sums(const Spring& pair, Eigen::VectorXd& sums) {
   sums[pair.j] += 2 * std::abs(pair.stiffness);
 }
 
-/// A Hessian as symmetric blocks K,
-///   H = Σ (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ K + Σ eᵢ eᵢᵀ ⊗ K.
+/// A part of a Hessian that couples all vertices of a list: stiffness·a aᵀ.
+struct HessianProduct {
+  std::span<const int> vertices;
+  std::span<const Eigen::RowVector3d> direction;  ///< a, one row per vertex of the list
+  double stiffness;                               ///< positive [N/m]
+};
+
+/// A Hessian as blocks K,
+///   H = Σ pairs + Σ eᵢ eᵢᵀ ⊗ K + Σ products.
+/// A pair i < j with a symmetric K adds (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ K. In general it adds −K at (i, j), −Kᵀ at (j, i), and
+/// the symmetric part of K at (i, i) and (j, j).
 struct HessianBlocks {
   std::vector<Eigen::Matrix3d> pairs;  ///< in the order of StiffnessBound::pairs [N/m]
   /// Blocks of single vertices: xx, xy, xz, yy, yz, zz. n×6 [N/m]
   Eigen::Matrix<double, Eigen::Dynamic, 6> vertices;
+  std::vector<HessianProduct> products = {};  ///< valid until the next EnergyHessian::linearise()
 };
 
 /// The Hessian of an energy at given positions and time, or a part of it. It is separate because only some methods need
@@ -76,7 +86,7 @@ struct EnergyHessian {
   virtual void linearise(const Vertices& x, double time, double concavity) = 0;
   /// Adds H·vector to the product, both n×3.
   virtual void add_product(const Vertices& vector, Vertices& product) const = 0;
-  /// Appends the blocks of its pairs, and adds those of vertices.
+  /// Appends the blocks of its pairs and its products, and adds the blocks of vertices.
   virtual void add_blocks(HessianBlocks& blocks) const = 0;
 };
 

@@ -8,6 +8,7 @@
 #include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
+#include "drape/sim/effects/pressure.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
@@ -38,6 +39,7 @@ std::span<const EffectType> effect_types() {
       row<Field>(),
       row<Air>(),
       row<Bending>(),
+      row<Pressure>(),
       row<MovingPins>(),
       row<Sphere>(),
       row<Ground>(),

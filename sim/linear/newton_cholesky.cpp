@@ -118,10 +118,11 @@ void NewtonCholesky::add_contacts() {
 }
 
 void NewtonCholesky::add(const Place& place, const Eigen::Matrix3d& block) {
-  if (place.high >= 0) add_diagonal(place.high, block);
+  const Eigen::Matrix3d own = (block + block.transpose()) / 2;
+  if (place.high >= 0) add_diagonal(place.high, own);
   if (place.low < 0) return;
-  add_diagonal(place.low, block);
-  add_below(place.low, place.rank, -block);
+  add_diagonal(place.low, own);
+  add_below(place.low, place.rank, -block.transpose());  // rows have the order of the vertices
 }
 
 void NewtonCholesky::add_diagonal(int row, const Eigen::Matrix3d& block) {
@@ -182,6 +183,7 @@ bool NewtonCholesky::factorize_positive() {
 void NewtonCholesky::add_energies(const Vertices& x, double concavity) {
   if (hessians_.empty()) return;
   blocks_.pairs.clear();
+  blocks_.products.clear();
   blocks_.vertices.setZero(x.rows(), 6);
   for (const auto& hessian : hessians_) {
     hessian->linearise(x, objective_.time(), concavity);
@@ -200,7 +202,42 @@ void NewtonCholesky::add_energies(const Vertices& x, double concavity) {
 void NewtonCholesky::solve(const Vertices& x, const Vertices& gradient, double concavity, Vertices& direction) {
   direction.setZero();
   if (!factor_ || !factorize(x, concavity)) return;
+  solve_products();
   solve_again(gradient, direction);
+}
+
+void NewtonCholesky::solve_products() {
+  updates_.resize(blocks_.products.size());
+  for (Index p = 0; p < updates_.size(); ++p) {
+    const HessianProduct& product = blocks_.products[p];
+    std::fill(right_hand_side_.begin(), right_hand_side_.end(), 0.0);
+    for (Index i = 0; i < product.vertices.size(); ++i) {
+      const int row = numbers_[Index(product.vertices[i])];
+      if (row < 0) continue;
+      for (int axis = 0; axis < 3; ++axis) right_hand_side_[3 * Index(row) + Index(axis)] = product.direction[i][axis];
+    }
+    factor_->solve(right_hand_side_.data(), right_hand_side_.data());
+    correct_for_products(p);
+    updates_[p].solution = right_hand_side_;
+    updates_[p].scale = product.stiffness / (1 + product.stiffness * along(product));
+  }
+}
+
+double NewtonCholesky::along(const HessianProduct& product) const {
+  double sum = 0;
+  for (Index i = 0; i < product.vertices.size(); ++i) {
+    const int row = numbers_[Index(product.vertices[i])];
+    if (row >= 0)
+      sum += product.direction[i].dot(Eigen::Map<const Eigen::RowVector3d>(&right_hand_side_[3 * Index(row)]));
+  }
+  return sum;
+}
+
+void NewtonCholesky::correct_for_products(Index count) {
+  for (Index p = 0; p < count; ++p) {
+    const double by = updates_[p].scale * along(blocks_.products[p]);
+    for (Index i = 0; i < right_hand_side_.size(); ++i) right_hand_side_[i] -= by * updates_[p].solution[i];
+  }
 }
 
 void NewtonCholesky::solve_again(const Vertices& gradient, Vertices& direction) {
@@ -209,6 +246,7 @@ void NewtonCholesky::solve_again(const Vertices& gradient, Vertices& direction) 
     for (int axis = 0; axis < 3; ++axis) right_hand_side_[3 * row + Index(axis)] = gradient(vertices_[row], axis);
   }
   factor_->solve(right_hand_side_.data(), right_hand_side_.data());
+  correct_for_products(updates_.size());
   for (Index row = 0; row < vertices_.size(); ++row) {
     for (int axis = 0; axis < 3; ++axis) direction(vertices_[row], axis) = right_hand_side_[3 * row + Index(axis)];
   }

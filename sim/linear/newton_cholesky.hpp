@@ -22,7 +22,8 @@ struct ContactBlock {
 
 /// Solver of Newton's equations by a Cholesky factor of H = M/h² + Σ Kₛ. There is one symmetric 3×3 block per spring
 /// and per pair of vertices coupled by an energy; energies of single vertices add to the diagonal. The sparsity is
-/// analysed once, on the n×n graph of vertices; each assembly writes the values in place.
+/// analysed once, on the n×n graph of vertices; each assembly writes the values in place. An energy's product, which
+/// couples all vertices, stays outside the factor: each costs one more solve per factor.
 class NewtonCholesky final : public NewtonSolver {
  public:
   NewtonCholesky(const System& system, const StepObjective& objective);
@@ -50,6 +51,12 @@ class NewtonCholesky final : public NewtonSolver {
   [[nodiscard]] bool factorize(const Vertices& x, double most);
   /// Factors the matrix assembled without concavity.
   [[nodiscard]] bool factorize_positive();
+  /// Finds the effect of the energies' products on a solution with the factor.
+  void solve_products();
+  /// Corrects the first `count` products' effect on right_hand_side_, which holds a solution with the factor.
+  void correct_for_products(std::size_t count);
+  /// Returns a·v of a product's direction a, with v in right_hand_side_.
+  [[nodiscard]] double along(const HessianProduct& product) const;
 
   /// Position of the block of a spring or a pair: the block rows of its ends (−1 for a pin), and the index of the
   /// off-diagonal block in the column of the smaller row.
@@ -57,7 +64,7 @@ class NewtonCholesky final : public NewtonSolver {
     int low, high, rank;
   };
 
-  /// Adds [K −K; −K K].
+  /// Adds [K' −K; −Kᵀ K'] with the symmetric part K' of K.
   void add(const Place& place, const Eigen::Matrix3d& block);
   void add_diagonal(int row, const Eigen::Matrix3d& block);
   void add_below(int column, int rank, const Eigen::Matrix3d& block);
@@ -82,6 +89,13 @@ class NewtonCholesky final : public NewtonSolver {
   std::vector<std::unique_ptr<EnergyHessian>> hessians_;  // of the system's energies
   HessianBlocks blocks_;                                  // of hessians_
   std::optional<MultifrontalCholesky> factor_;            // none if everything is pinned
+
+  /// A product s a aᵀ of the energies, which is not in the factor (Sherman and Morrison 1950).
+  struct Update {
+    std::vector<double> solution;  // H⁻¹ a with the products before this one
+    double scale;                  // s/(1 + s a·solution)
+  };
+  std::vector<Update> updates_;  // one per product of blocks_
 };
 
 /// Solver of Newton's equations by conjugate gradients while these take less work than a factor of H. Work is counted

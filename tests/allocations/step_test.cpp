@@ -12,11 +12,13 @@
 #include "drape/sim/effects/field.hpp"
 #include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
+#include "drape/sim/effects/pressure.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
 #include "drape/sim/effects/wind.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/system.hpp"
+#include "tests/support/closed_meshes.hpp"
 #include "tests/support/setups.hpp"
 
 // The C library's functions under the names that everyone calls, including Eigen and CHOLMOD. A sanitizer replaces
@@ -118,6 +120,14 @@ TEST_P(Allocations, ASteadyStepTakesNothing) {
 
 TEST_P(Allocations, AStepWithEveryEffectButContactTakesNothing) {
   Simulation simulation(eventful(GetParam()));
+  const auto [ours, cholmod] = steady_step(simulation);
+  EXPECT_EQ(ours, 0);
+}
+
+TEST_P(Allocations, AStepUnderPressureTakesNothing) {
+  SimulationSettings settings = setup(cloth_of(ball(4, 0.5), 1, 100, {0}), GetParam(), 0.001);
+  settings.effects = {Gravity{}, Pressure{.pressure = 10, .gas = Gas::ideal, .ambient = 100}};
+  Simulation simulation(settings);
   const auto [ours, cholmod] = steady_step(simulation);
   EXPECT_EQ(ours, 0);
 }

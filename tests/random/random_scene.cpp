@@ -40,6 +40,7 @@ class Writer {
     for (const EffectType& type : effect_types()) {
       // Cloth finer than its own thickness is in contact everywhere, which takes an implicit method minutes.
       if (!explicit_ && type.name == "self_collision") continue;
+      if (type.name == "pressure") continue;  // a grid encloses nothing
       const double often = !stiff_ ? 0.3 : type.name == "gravity" ? 0.8 : 0.05;
       if (random_.number() > often || (!wild() && type.name == "moving_pins" && pins_.empty())) continue;
       // Pins can be moved by one table only.
