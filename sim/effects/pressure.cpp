@@ -12,7 +12,7 @@ namespace drape {
 namespace {
 
 // Smallest initial volume of an ideal gas, as a fraction of the surface's area to the power of 3/2.
-constexpr double least_volume = 1e-4;
+constexpr double least_enclosed = 1e-4;
 constexpr double most_pressure = 1e9;  // [Pa]
 
 }  // namespace
@@ -39,7 +39,7 @@ void Pressure::check(const SimulationSettings& settings, const ProblemSink& prob
     for (const ClosedPiece& piece : pieces) {
       const double volume = enclosed_volume(piece.triangles, settings.cloth.positions);
       const double area = surface_area(piece.triangles, settings.cloth.positions);
-      if (volume > least_volume * std::pow(area, 1.5)) continue;
+      if (volume > least_enclosed * std::pow(area, 1.5)) continue;
       problem("gas", fmt::format("\"ideal\" expects pieces that enclose gas at the start, but the one at vertex {} has "
                                  "{:.3g} m³ inside; expected more, or gas = \"constant\"",
                                  piece.triangles.front()[0], volume));

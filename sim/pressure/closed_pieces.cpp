@@ -12,8 +12,8 @@
 namespace drape {
 namespace {
 
-// Volume, as a fraction of that of a ball with the same surface, below which a shape counts as flat.
-constexpr double flat = 1e-6;
+// Volume, as a fraction of the surface to the power of 3/2, below which a shape counts as flat.
+constexpr double least_fullness = 1e-6;
 
 /// Triangle beyond an edge.
 struct Beyond {
@@ -86,7 +86,7 @@ ClosedPiece collect(int first, const std::vector<Triangle>& triangles, const std
 /// Returns the sign of the volume, or 0 for a flat shape.
 int orientation(const ClosedPiece& piece, const Vertices& x) {
   const double volume = enclosed_volume(piece.triangles, x);
-  const double flattest = flat * std::pow(surface_area(piece.triangles, x), 1.5);
+  const double flattest = least_fullness * std::pow(surface_area(piece.triangles, x), 1.5);
   return std::abs(volume) <= flattest ? 0 : volume > 0 ? 1 : -1;
 }
 

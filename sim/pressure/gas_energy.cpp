@@ -14,8 +14,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::RowVector3d;
 
-constexpr double most_stretch = 1.5;  // in every direction, up to which bounds hold
-constexpr double least_volume = 0.9;  // change of the initial volume of an ideal gas, up to which bounds hold
+constexpr double most_stretch = 1.5;   // in every direction, up to which bounds hold
+constexpr double volume_margin = 0.9;  // change of the initial volume of an ideal gas, up to which bounds hold
 
 /// Returns the largest distance of a vertex from the mean of all [m].
 double radius(const std::vector<int>& vertices, const Vertices& x) {
@@ -191,7 +191,7 @@ double GasEnergy::stiffness_bound(const Piece& piece, const Cloth& cloth) {
   // |∇V·u| ≤ R/(4√3) √(Σ squared sides) √(Σ |d|²) bounds the first part of the Hessian in the same way as ∇²V.
   const double size = std::max(radius(piece.vertices, cloth.rest), radius(piece.vertices, cloth.positions));
   const double initial = enclosed_volume(piece.triangles, cloth.positions);
-  const double smallest = least_volume * initial, largest = initial / least_volume;
+  const double smallest = volume_margin * initial, largest = initial / volume_margin;
   const double push = std::max(std::abs(piece.law.pressure(smallest)), std::abs(piece.law.pressure(largest)));
   const double squares =
       std::max(squared_sides(piece.triangles, cloth.rest), squared_sides(piece.triangles, cloth.positions));

@@ -80,4 +80,31 @@ Mesh two_discs(int rings, double thickness) {
   return mesh;
 }
 
+Mesh gored_discs(int meridians, int rings, double thickness) {
+  const int inside = 1 + meridians * (rings - 1);
+  const auto number = [&](int side, int ring, int i) {
+    const int around = i % meridians;
+    if (ring == 0) return side * inside;
+    return ring == rings ? 2 * inside + around : side * inside + 1 + (ring - 1) * meridians + around;
+  };
+  Mesh mesh;
+  mesh.positions.resize(2 * inside + meridians, 3);
+  const auto add = [&](int side, int a, int b, int c) {
+    mesh.triangles.push_back(side == 0 ? Triangle{a, b, c} : Triangle{a, c, b});
+  };
+  for (int side = 0; side < 2; ++side) {
+    for (int ring = 0; ring <= rings; ++ring) {
+      const double r = static_cast<double>(ring) / rings, z = thickness / 2 * (1 - r * r);
+      for (int i = 0; i < meridians; ++i) {
+        const double angle = 2 * std::numbers::pi * i / meridians;
+        mesh.positions.row(number(side, ring, i)) << r * std::cos(angle), r * std::sin(angle), side == 0 ? z : -z;
+        if (ring == rings) continue;
+        if (ring > 0) add(side, number(side, ring, i), number(side, ring + 1, i + 1), number(side, ring, i + 1));
+        add(side, number(side, ring, i), number(side, ring + 1, i), number(side, ring + 1, i + 1));
+      }
+    }
+  }
+  return mesh;
+}
+
 }  // namespace drape::test

@@ -11,4 +11,9 @@ Mesh ball(int n, double radius);
 /// upper disc faces up, the lower down. They are a lens: z = ±thickness/2·(1 − r²).
 Mesh two_discs(int rings, double thickness);
 
+/// Makes such discs of `meridians` straight lines from the middle to the rim, each in as many pieces as there are
+/// rings. Vertices are the middle, then ring after ring of the upper disc without its rim, then those of the lower,
+/// then the rim; each ring begins on the same meridian.
+Mesh gored_discs(int meridians, int rings, double thickness);
+
 }  // namespace drape::test
