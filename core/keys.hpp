@@ -17,6 +17,7 @@
 
 #include "drape/core/rgb.hpp"
 #include "drape/core/rotation.hpp"
+#include "drape/core/warp_weft.hpp"
 
 namespace drape {
 
@@ -56,10 +57,11 @@ struct FormulaList {
 /// One key of a settings table: name, target variable, valid range and a sentence of help. Readers, error messages and
 /// reference pages are all made from it.
 struct Key {
-  using Target = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, CustomValue,
-                              KeyframeList, VertexSelection, FormulaList, Eigen::Vector2i*, Eigen::Vector3d*,
-                              std::vector<int>*, std::optional<int>*, std::optional<double>*, std::optional<Rgb>*,
-                              std::optional<Eigen::Vector2i>*, std::optional<Eigen::Vector3d>*>;
+  using Target =
+      std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, CustomValue, KeyframeList,
+                   VertexSelection, FormulaList, Eigen::Vector2i*, Eigen::Vector3d*, std::vector<int>*,
+                   std::optional<int>*, std::optional<double>*, std::optional<Rgb>*, std::optional<Eigen::Vector2i>*,
+                   std::optional<Eigen::Vector3d>*, std::optional<WarpWeft>*>;
 
   std::string name;
   Target target;

@@ -14,6 +14,7 @@
 #include "scene/table_reader.hpp"
 #include "scene/values.hpp"
 #include "sim/spring_network.hpp"
+#include "sim/woven_cloth.hpp"
 
 namespace drape {
 namespace {
@@ -98,7 +99,7 @@ bool has_both_diagonals(const ClothTable& table) {
 
 /// Assigns the masses and stiffnesses that the table gives by area; returns false after problems.
 bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth, Problems& problems) {
-  const auto by_area = [&](const char* key, bool one, const auto& other, double of_fabric, const auto& give) {
+  const auto by_area = [&](const char* key, bool one, const auto& other, auto of_fabric, const auto& give) {
     const bool asked = other || (!one && table.material != nullptr);
     if (!asked) return true;
     const char* blamed = other ? key : "material";
@@ -112,8 +113,12 @@ bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth
   };
   const Fabric fabric = table.material != nullptr ? *table.material : Fabric{};
   const bool massive = by_area("density", says(value, "mass"), table.density, fabric.density, share_mass_by_area);
-  const auto stiffen = has_both_diagonals(table) ? stiffen_evenly : stiffen_by_area;
-  return by_area("modulus", table.stiffness.has_value(), table.modulus, fabric.modulus, stiffen) && massive;
+  const auto stiffen = [&](WarpWeft modulus, Cloth& stiffened) {
+    modulus.angle = table.warp * (std::numbers::pi / 180);
+    if (!modulus.isotropic()) return stiffen_as_woven(modulus, stiffened);
+    (has_both_diagonals(table) ? stiffen_evenly : stiffen_by_area)(modulus.warp, stiffened);
+  };
+  return by_area("modulus", table.stiffness.has_value(), table.modulus, WarpWeft(fabric.modulus), stiffen) && massive;
 }
 
 /// Reports a mass or a stiffness that is given twice.

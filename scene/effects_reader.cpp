@@ -120,6 +120,10 @@ struct ValueOfTarget {
   FieldValue operator()(const Eigen::Vector2i* value) const { return numbers_of(*value); }
   FieldValue operator()(const Eigen::Vector3d* value) const { return numbers_of(*value); }
   FieldValue operator()(const std::vector<int>* value) const { return numbers_of(*value); }
+  FieldValue operator()(const WarpWeft* value) const {
+    if (value->isotropic()) return value->warp;
+    return std::vector{value->warp, value->weft};
+  }
   template <class T>
   FieldValue operator()(const std::optional<T>* value) const {
     return *value ? (*this)(&**value) : left_open;

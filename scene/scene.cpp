@@ -8,6 +8,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include "core/files.hpp"
@@ -30,6 +31,15 @@ namespace {
 
 constexpr double most_steps = 1e9;
 constexpr double most_frames = 1e7;
+
+/// Returns the effect with the direction of the cloth's warp [degrees], if it depends on that.
+Effect along_warp(const Effect& effect, double warp) {
+  const Bending* bending = effect.as<Bending>();
+  if (bending == nullptr || !bending->rigidity) return effect;
+  Bending turned = *bending;
+  turned.rigidity->angle = warp * (std::numbers::pi / 180);
+  return turned;
+}
 
 /// Rules between the keys of a scene's tables. Each rule is checked only if its values are in range.
 class Checks {
@@ -248,7 +258,7 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
     }
   }
 
-  for (const ReadEffect& read : effects) scene.simulation.effects.add(read.effect);
+  for (const ReadEffect& read : effects) scene.simulation.effects.add(along_warp(read.effect, cloth_table.warp));
   apply_quality(scene, [&](const char* key) {
     const TomlValue* value = find_path(document, key);
     return value != nullptr && value->place.override_number > 0;

@@ -79,6 +79,13 @@ class KeyReader {
   void operator()(std::optional<double>* target) const {
     assign(target, in_reach(read_number(value_, key_.name, range_, problems_)));
   }
+  void operator()(std::optional<WarpWeft>* target) const {
+    if (value_.as<TomlArray>() == nullptr) {
+      assign(target, read_number(value_, key_.name, range_, problems_));
+    } else if (const auto both = read_pair(value_, key_.name, range_, problems_)) {
+      *target = WarpWeft((*both)[0], (*both)[1]);
+    }
+  }
   void operator()(std::optional<Rgb>* target) const { assign(target, read_color()); }
   void operator()(std::optional<Eigen::Vector3d>* target) const {
     assign(target, in_reach(read_vector(value_, key_.name, range_, problems_)));

@@ -26,8 +26,12 @@ Keys cloth_keys(ClothTable& cloth) {
       .above(0);
   keys.add("modulus", &cloth.modulus, "N/m",
            "Force per width and strain, instead of `stiffness`: each spring's stiffness follows from the adjacent "
-           "areas, see [Materials](#materials).")
+           "areas, see [Materials](#materials). Two numbers: along the warp and along the weft, see "
+           "[Warp and weft](#warp-and-weft).")
       .above(0);
+  keys.add("warp", &cloth.warp, "degrees",
+           "Direction of the warp in the rest shape, from the x axis towards y. Applies where `modulus` or the "
+           "`rigidity` of [effects.bending] has two numbers.");
   std::vector<std::string> names;
   for (const Fabric& fabric : fabrics()) names.emplace_back(fabric.name);
   std::optional<std::size_t> chosen;
@@ -321,6 +325,7 @@ struct Form {
   std::string operator()(const Eigen::Vector2i*) const { return "[whole number, whole number]"; }
   std::string operator()(const Eigen::Vector3d*) const { return "[x, y, z]"; }
   std::string operator()(const std::vector<int>*) const { return "[whole number, …]"; }
+  std::string operator()(const WarpWeft*) const { return "number or [warp, weft]"; }
   template <class T>
   std::string operator()(const std::optional<T>*) const {
     return (*this)(static_cast<const T*>(nullptr));

@@ -19,10 +19,12 @@ struct ClothTable {
   const TomlValue* mesh = nullptr;
   const TomlValue* rest = nullptr;
   const TomlValue* pins = nullptr;
-  const Fabric* material = nullptr;          ///< default of values that are not given
-  double mass = 1;                           ///< total mass where no density is given [kg]
-  std::optional<double> density;             ///< [kg/m²]
-  std::optional<double> stiffness, modulus;  ///< at most one: of every spring, or by area [N/m]
+  const Fabric* material = nullptr;  ///< default of values that are not given
+  double mass = 1;                   ///< total mass where no density is given [kg]
+  std::optional<double> density;     ///< [kg/m²]
+  std::optional<double> stiffness;   ///< of every spring [N/m]
+  std::optional<WarpWeft> modulus;   ///< instead: by area [N/m]
+  double warp = 0;                   ///< angle of the warp in the rest shape [degrees]
   enum class Springs { edges, edges_and_bend } springs = Springs::edges;
   std::optional<double> shear_stiffness, bend_stiffness;  ///< for edges_and_bend; default `stiffness` [N/m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     ///< [m/s]

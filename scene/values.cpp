@@ -360,6 +360,10 @@ struct WriteValue {
   std::string operator()(const std::vector<int>* value) const {
     return value->empty() ? "" : fmt::format("[{}]", fmt::join(*value, ", "));
   }
+  std::string operator()(const WarpWeft* value) const {
+    if (value->isotropic()) return (*this)(&value->warp);
+    return fmt::format("[{}, {}]", (*this)(&value->warp), (*this)(&value->weft));
+  }
   template <class T>
   std::string operator()(const std::optional<T>* value) const {
     return *value ? (*this)(&**value) : "";

@@ -110,6 +110,10 @@ class ValueSchema {
   Json operator()(const Eigen::Vector3d* value) const {
     return with_default(tuple(number_of(key_, "number"), 3), value);
   }
+  Json operator()(const WarpWeft*) const {
+    const Json number = number_of(key_, "number");
+    return any_of({number, tuple(number, 2)});
+  }
   Json operator()(const std::vector<int>*) const { return list(number_of(key_, "integer")); }
   template <class T>
   Json operator()(const std::optional<T>* value) const {

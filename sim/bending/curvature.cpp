@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "sim/bending/bending_energy.hpp"
+#include "sim/woven_cloth.hpp"
 
 namespace drape {
 namespace {
@@ -49,6 +50,12 @@ class SecondDerivatives {
   }
 
   [[nodiscard]] double area() const { return area_; }
+
+  /// Replaces the three components by linear combinations of them.
+  void transform(const Eigen::Matrix3d& matrix) {
+    for (Point& weight : weights_) weight = matrix * weight;
+    for (Point& direction : free_) direction = matrix * direction;
+  }
 
   [[nodiscard]] CurvatureElement element() const {
     const Eigen::Matrix3d projection = without_free();
@@ -96,6 +103,17 @@ class SecondDerivatives {
   std::vector<Point> weights_;
   std::vector<Point> free_;
 };
+
+/// Returns the matrix that turns the components of S in a triangle's frame into those of Q S Q, with the eigenvalues
+/// D₁^¼ and D₂^¼ of Q along the warp and the weft.
+/// @param warp angle of the warp in the triangle [rad]
+Eigen::Matrix3d weave(const WarpWeft& rigidity, double warp) {
+  const double c = std::cos(warp), s = std::sin(warp), root = std::sqrt(2.0);
+  Eigen::Matrix3d turn;
+  turn << c * c, s * s, root * c * s, s * s, c * c, -root * c * s, -root * c * s, root * c * s, c * c - s * s;
+  const double one = std::sqrt(rigidity.warp), two = std::sqrt(rigidity.weft);
+  return Point(one, two, std::sqrt(one * two)).asDiagonal() * turn;
+}
 
 /// Returns the three components of the rest shape, one per row.
 Eigen::Matrix3d components(const CurvatureElement& element, const RestSurface& surface) {
@@ -145,15 +163,17 @@ void bend_at_rest(CurvatureElement& element, const PlacedTriangle& t, const Rest
 
 }  // namespace
 
-std::vector<CurvatureElement> curvature_elements(const Cloth& cloth, double rigidity) {
+std::vector<CurvatureElement> curvature_elements(const Cloth& cloth, const WarpWeft& rigidity) {
   const RestSurface surface(cloth);
   std::vector<CurvatureElement> elements;
   for (int t = 0; t < surface.triangle_count(); ++t) {
     if (!surface.bends(t)) continue;
     const PlacedTriangle placed = surface.lay_out(t);
-    const SecondDerivatives derivatives(surface, placed);
+    SecondDerivatives derivatives(surface, placed);
+    if (!rigidity.isotropic())
+      derivatives.transform(weave(rigidity, warp_angle(cloth, surface.triangle(t), rigidity.angle).value_or(0)));
     CurvatureElement element = derivatives.element();
-    element.weights *= std::sqrt(rigidity * derivatives.area());
+    element.weights *= std::sqrt(rigidity.isotropic() ? rigidity.warp * derivatives.area() : derivatives.area());
     bend_at_rest(element, placed, surface);
     elements.push_back(std::move(element));
   }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "drape/core/warp_weft.hpp"
 #include "drape/sim/cloth.hpp"
 
 namespace drape {
@@ -43,8 +44,12 @@ struct CurvatureElement {
 /// along S₀.
 ///
 /// Triangles without an area, and their edges, do not bend.
-/// @param rigidity D, positive [N·m]
-std::vector<CurvatureElement> curvature_elements(const Cloth& cloth, double rigidity);
+///
+/// A woven cloth has ½ ∫ ‖Q (S − S₀) Q‖² dA, where Q has the eigenvalues D₁^¼ along the warp and D₂^¼ along the weft.
+/// That is D₁ for curvature along the warp, D₂ along the weft, √(D₁D₂) for twist, and for a sheet rolled at an angle θ
+/// from the warp √D(θ) = cos²θ √D₁ + sin²θ √D₂ (Huber 1923).
+/// @param rigidity D, or D₁ and D₂, positive [N·m]
+std::vector<CurvatureElement> curvature_elements(const Cloth& cloth, const WarpWeft& rigidity);
 
 /// A triangle of the rest shape, laid out in a plane.
 struct PlacedTriangle {

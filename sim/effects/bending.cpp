@@ -6,7 +6,9 @@
 namespace drape {
 
 void Bending::describe(Keys& keys) {
-  keys.add("rigidity", &rigidity, "N·m", "Bending rigidity D: an area A rolled to radius R stores the energy ½·D·A/R².")
+  keys.add("rigidity", &rigidity, "N·m",
+           "Bending rigidity D: an area A rolled to radius R stores the energy ½·D·A/R². Two numbers: rolled along the "
+           "warp and along the weft, see [cloth] `warp`.")
       .above(0);
   keys.add("cross_stiffness", &cross_stiffness, "N/m",
            "Stiffness of \"cross\" springs between the two vertices opposite each inner edge.")

@@ -90,6 +90,11 @@ class Change {
       if (!*target || **target == 0) return false;
       **target *= factor();
       return true;
+    } else if constexpr (std::is_same_v<Target, std::optional<WarpWeft>*>) {
+      if (!*target) return false;
+      const double by = factor();
+      **target = WarpWeft((*target)->warp * by, (*target)->weft * by, (*target)->angle);
+      return true;
     } else if constexpr (std::is_same_v<Target, Eigen::Vector3d*>) {
       if (target->isZero(0)) return false;
       *target *= factor();

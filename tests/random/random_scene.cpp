@@ -161,7 +161,10 @@ class Writer {
   std::string value(const Key& key, const std::optional<double>* v) {
     if (key.name == "stiffness_bound" && !wild()) return "2.0";  // of the steepest three formulas
     // A cloth's bending energy is far below a joule; a sphere's radius is a fraction of the cloth.
-    return number(within(key, v->value_or(key.name == "rigidity" ? 1e-4 : 0.3)));
+    return number(within(key, v->value_or(0.3)));
+  }
+  std::string value(const Key& key, const std::optional<WarpWeft>*) {
+    return number(within(key, key.name == "rigidity" ? 1e-4 : 0.3));
   }
   std::string value(const Key&, const std::string*) { return random_.number() < wild_ ? "\"\\u0000\"" : "\"a\""; }
   std::string value(const Key&, const std::filesystem::path*) {

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "drape/core/warp_weft.hpp"
 #include "drape/sim/effects/effect.hpp"
 
 namespace drape {
@@ -15,7 +16,8 @@ struct Bending {
   static constexpr EffectCost cost{.evaluated = 20e-9, .solved = 50e-9};
 
   /// Flexural rigidity D [N·m], above 0: an area A rolled to the radius R stores ½·D·A/R².
-  std::optional<double> rigidity = {};
+  /// Along warp and weft, or one number for all directions.
+  std::optional<WarpWeft> rigidity = {};
   /// Stiffness of springs between the vertices opposite to each inner edge [N/m], above 0.
   std::optional<double> cross_stiffness = {};
 
