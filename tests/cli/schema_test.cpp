@@ -92,7 +92,9 @@ std::vector<std::string> wrong_values(const Key& key) {
   std::vector<std::string> wrong{"1979-05-27", "{ nonsense = 1 }"};
   std::size_t count = 0;  // of the key's numbers
   bool whole = false;
-  if (std::holds_alternative<double*>(key.target) || std::holds_alternative<std::optional<double>*>(key.target)) {
+  const bool woven = std::holds_alternative<std::optional<WarpWeft>*>(key.target);  // one number or two
+  if (woven || std::holds_alternative<double*>(key.target) ||
+      std::holds_alternative<std::optional<double>*>(key.target)) {
     count = 1;
   } else if (std::holds_alternative<int*>(key.target) || std::holds_alternative<std::optional<int>*>(key.target)) {
     count = 1, whole = true;
@@ -113,7 +115,7 @@ std::vector<std::string> wrong_values(const Key& key) {
     }
     if (std::isfinite(key.maximum)) wrong.push_back(of(key.maximum + 1));
   }
-  if (count > 1) wrong.emplace_back("[1]");
+  if (count > 1 || woven) wrong.emplace_back("[1]");
   if (std::holds_alternative<Choice>(key.target)) wrong.emplace_back("\"nonsense\"");
   if (std::holds_alternative<Rgb*>(key.target)) wrong.emplace_back("\"#12345\"");
   if (std::holds_alternative<bool*>(key.target)) wrong.emplace_back("1");

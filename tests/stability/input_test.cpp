@@ -15,7 +15,8 @@ namespace {
 /// Returns a key's value with such a number in it; empty if it has no numbers.
 std::string with_number(const Key& key, const std::string& number) {
   std::string vector = "[0, " + number + ", 0]";
-  if (std::holds_alternative<double*>(key.target) || std::holds_alternative<std::optional<double>*>(key.target)) {
+  if (std::holds_alternative<double*>(key.target) || std::holds_alternative<std::optional<double>*>(key.target) ||
+      std::holds_alternative<std::optional<WarpWeft>*>(key.target)) {
     return number;
   }
   if (std::holds_alternative<Eigen::Vector3d*>(key.target) ||
