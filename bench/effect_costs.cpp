@@ -10,6 +10,7 @@
 #include "drape/sim/effects/body.hpp"
 #include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/internal_damping.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
@@ -46,6 +47,7 @@ std::vector<Case> cases() {
   return {
       {"bending_rigidity", Bending{.rigidity = 1e-3}, make_moving_cloth},
       {"bending_cross", Bending{.cross_stiffness = 10}, make_moving_cloth},
+      {"internal_damping", InternalDamping{.relaxation_time = 0.01}, make_moving_cloth},
       {"sphere", sphere, make_moving_cloth},
       {"sphere_contact", contact, make_moving_cloth},
       {"wind", Wind{.acceleration = {1, 0, 0}}, make_moving_cloth},

@@ -148,7 +148,9 @@ Energies Simulation::Motion::energies() {
   const Eigen::VectorXd& m = settings.cloth.masses;
   ignored.setZero(state.x.rows(), 3);
   double elastic = springs.add_value_gradient(state.x, ignored);
-  for (const auto& one : system->energies) elastic += one->add_gradient(state.x, time(), ignored);
+  for (const auto& one : system->energies) {
+    if (one->stored()) elastic += one->add_gradient(state.x, time(), ignored);
+  }
   per_vertex = state.v.rowwise().squaredNorm();
   const double kinetic = 0.5 * m.dot(per_vertex);
   per_vertex.noalias() = state.x * system->gravity;

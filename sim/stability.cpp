@@ -164,7 +164,7 @@ double pushes_bound(const System& system) {
 
 }  // namespace
 
-double safe_step(const System& system) {
+double highest_frequency(const System& system) {
   Eigen::VectorXd free = Eigen::VectorXd::Ones(system.cloth.masses.size());
   for (const int pin : system.cloth.pins) free[pin] = 0;
   for (const PinRelease& release : system.pin_releases) {
@@ -182,8 +182,11 @@ double safe_step(const System& system) {
   const auto scale = [&](double mass) { return 1 / std::sqrt(std::ldexp(mass, -unit_of_mass)); };
   const double largest =
       remembered_largest_eigenvalue(bound, free.cwiseProduct(system.cloth.masses.unaryExpr(scale)), system.stop);
-  double frequency = std::ldexp(std::sqrt(largest), (unit_of_stiffness - unit_of_mass) / 2);
+  return std::ldexp(std::sqrt(largest), (unit_of_stiffness - unit_of_mass) / 2);
+}
 
+double safe_step(const System& system) {
+  double frequency = highest_frequency(system);
   double pushes = pushes_bound(system);
   for (const auto& field : system.fields) pushes += field->stiffness_bound();
   if (pushes > 0) frequency = std::hypot(frequency, std::sqrt(pushes));

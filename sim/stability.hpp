@@ -20,6 +20,9 @@ namespace drape {
 /// value is cached, as a scene is checked before it is simulated.
 double safe_step(const System& system);
 
+/// Returns √λ_max(M⁻¹L) of the springs and pairs alone, as in safe_step() [1/s].
+double highest_frequency(const System& system);
+
 /// Returns the largest stable step of a vertex without springs under position-dependent forces [s], for schemes that
 /// evaluate them once per step. Infinite if there are none or their slope is unknown.
 double safe_step_of_pushes(const System& system);

@@ -6,6 +6,7 @@
 #include "sim/contact/impulse_contact.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/schemes/sdirk2.hpp"
+#include "sim/step_dissipation.hpp"
 #include "sim/timed_effects.hpp"
 #include "sim/velocity_field.hpp"
 
@@ -92,6 +93,17 @@ void add_drag(const IntegratorSettings& integrator, System& system) {
   system.energies.push_back(std::move(drag));
 }
 
+/// Adds the energies for dashpots in implicit steps.
+void add_dissipations(const IntegratorSettings& integrator, System& system) {
+  if (is_explicit(integrator.method)) return;
+  const double shortest = integrator.scheme == TimeScheme::sdirk2 ? Sdirk2::gamma * system.step : system.step;
+  for (const auto& dashpots : system.dashpots) {
+    auto dissipation = std::make_unique<StepDissipation>(dashpots, shortest, system.cloth.positions, system.threads);
+    system.dissipations.push_back(dissipation.get());
+    system.energies.push_back(std::move(dissipation));
+  }
+}
+
 /// Adds everything that acts on the cloth.
 void install_effects(const SimulationSettings& settings, std::vector<double>* effect_seconds, const Stop& stop,
                      System& system) {
@@ -103,6 +115,7 @@ void install_effects(const SimulationSettings& settings, std::vector<double>* ef
     if (effect_seconds != nullptr) time_additions(system, before, (*effect_seconds)[i]);
   }
   add_drag(settings.integrator, system);
+  add_dissipations(settings.integrator, system);
   if (system.contacts.empty()) return;
   // Explicit steps have no other contact. Implicit steps need this filter to keep their contacts after other filters.
   const bool explicitly = is_explicit(settings.integrator.method);

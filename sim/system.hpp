@@ -31,7 +31,9 @@ struct Force {
   [[nodiscard]] virtual double stiffness_bound() const { return 0; }
 };
 
+struct Dashpots;
 class FieldDrag;
+class StepDissipation;
 
 /// An upper bound on Hessians for all positions and times,
 ///   B = Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ I₃ + diag(d) ⊗ I₃.
@@ -99,6 +101,8 @@ struct Energy {
   virtual void add_bound(StiffnessBound& bound) const = 0;
   /// Returns a Hessian that refers to this energy, which must outlive it.
   [[nodiscard]] virtual std::unique_ptr<EnergyHessian> make_hessian() const = 0;
+  /// Returns true if the cloth stores it. A dissipation potential of a step is no part of the cloth's energy.
+  [[nodiscard]] virtual bool stored() const { return true; }
 };
 
 /// A change of the velocity at the end of a step.
@@ -177,6 +181,10 @@ struct System {
   std::vector<std::shared_ptr<ContactSource>> contacts;  ///< everything that the cloth can touch
   std::vector<PinMotion> pin_motions;                    ///< of pins that move
   std::vector<PinRelease> pin_releases;  ///< at each release, a simulation makes a new system without these pins
+  double bending_rigidity = 0;           ///< of the bending energy, for dashpots [N·m]
+  double damping_time = 0;               ///< relaxation time of the dashpots [s]
+  std::vector<std::shared_ptr<Dashpots>> dashpots;  ///< of internal damping
+  std::vector<StepDissipation*> dissipations;       ///< energies for the dashpots in an implicit step
 
   System(const Cloth& c, double h, const Threads& by = one_thread())
       : cloth(c), step(h), whole_step(h), threads(by), springs(c.springs) {}

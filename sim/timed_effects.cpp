@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "sim/dashpots.hpp"
+
 namespace drape {
 namespace {
 
@@ -65,6 +67,24 @@ struct TimedEnergy final : Timed<Energy> {
   [[nodiscard]] std::unique_ptr<EnergyHessian> make_hessian() const override {
     return std::make_unique<TimedHessian>(inner->make_hessian(), seconds);
   }
+  [[nodiscard]] bool stored() const override { return inner->stored(); }
+};
+
+struct TimedDashpots final : Timed<Dashpots> {
+  using Timed::Timed;
+  void set_directions(const Vertices& x) override {
+    const Stopwatch watch(seconds);
+    inner->set_directions(x);
+  }
+  void add_product(const Vertices& v, Vertices& product) const override {
+    const Stopwatch watch(seconds);
+    inner->add_product(v, product);
+  }
+  void add_blocks(double factor, HessianBlocks& blocks) const override {
+    const Stopwatch watch(seconds);
+    inner->add_blocks(factor, blocks);
+  }
+  void add_bound(double factor, StiffnessBound& bound) const override { inner->add_bound(factor, bound); }
 };
 
 struct TimedCorrection final : Timed<Correction> {
@@ -121,6 +141,7 @@ void time_additions(System& system, const SystemSizes& before, double& seconds) 
   wrap<TimedForce>(system.forces, before.forces, seconds);
   wrap<TimedForce>(system.fields, before.fields, seconds);
   wrap<TimedEnergy>(system.energies, before.energies, seconds);
+  wrap<TimedDashpots>(system.dashpots, before.dashpots, seconds);
   wrap<TimedCorrection>(system.corrections, before.corrections, seconds);
   wrap<TimedFilter>(system.filters, before.filters, seconds);
   wrap<TimedContacts>(system.contacts, before.contacts, seconds);

@@ -6,11 +6,12 @@ namespace drape {
 
 /// Sizes of a system's lists at one moment.
 struct SystemSizes {
-  std::size_t forces, fields, energies, corrections, filters, contacts;
+  std::size_t forces, fields, energies, dashpots, corrections, filters, contacts;
   explicit SystemSizes(const System& system)
       : forces(system.forces.size()),
         fields(system.fields.size()),
         energies(system.energies.size()),
+        dashpots(system.dashpots.size()),
         corrections(system.corrections.size()),
         filters(system.filters.size()),
         contacts(system.contacts.size()) {}

@@ -27,8 +27,9 @@ void add_up(std::vector<Spring>& pairs) {
   pairs.resize(count);
 }
 
-/// Returns the pairs of vertices coupled by the elements, sorted, without duplicates.
-std::vector<Spring> couplings(std::span<const CurvatureElement> elements) {
+}  // namespace
+
+std::vector<Spring> curvature_pairs(std::span<const CurvatureElement> elements) {
   std::vector<Spring> pairs;
   std::size_t most = most_unsorted;
   for (const CurvatureElement& e : elements) {
@@ -47,8 +48,6 @@ std::vector<Spring> couplings(std::span<const CurvatureElement> elements) {
   add_up(pairs);
   return pairs;
 }
-
-}  // namespace
 
 /// Hessian of the constant quadratic part, plus −s(I − q̂q̂ᵀ) wwᵀ of every curved component with s =
 /// share_across(r/‖q‖, concavity). It is exact for ‖q‖ > r, otherwise a part of the Hessian, as with springs.
@@ -111,7 +110,7 @@ class BendingHessian final : public EnergyHessian {
 };
 
 BendingEnergy::BendingEnergy(std::span<const CurvatureElement> elements, int vertex_count, const Threads& threads)
-    : quadratic_(couplings(elements), vertex_count, threads) {
+    : quadratic_(curvature_pairs(elements), vertex_count, threads) {
   for (const CurvatureElement& e : elements) {
     if (e.rest == 0) continue;
     curved_.push_back({.first = terms_.size(), .last = terms_.size() + e.vertices.size(), .rest = e.rest});

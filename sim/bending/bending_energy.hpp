@@ -10,6 +10,9 @@
 
 namespace drape {
 
+/// Returns the pairs of vertices coupled by the elements, sorted, without duplicates. Each has the stiffness −Σ wᵢ wⱼ.
+std::vector<Spring> curvature_pairs(std::span<const CurvatureElement> elements);
+
 /// Bending energy of a cloth, E = ½ Σ (‖q‖ − r)² over the components of its curvature elements; r = 0 for most.
 ///
 /// Its quadratic part ½ Σ ‖q‖² couples pairs of vertices like springs of zero length, E = Σ k/2 ‖xᵢ − xⱼ‖² with k = −Σ

@@ -27,6 +27,7 @@ void Bending::install(System& system) const {
     system.springs.insert(system.springs.end(), springs.begin(), springs.end());
   }
   if (rigidity) {
+    system.bending_rigidity += *rigidity;
     const auto elements = curvature_elements(system.cloth, *rigidity);
     if (!elements.empty())
       system.energies.push_back(std::make_unique<BendingEnergy>(elements, system.cloth.vertex_count(), system.threads));

@@ -7,6 +7,7 @@
 #include "drape/sim/effects/field.hpp"
 #include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/internal_damping.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/pressure.hpp"
 #include "drape/sim/effects/self_collision.hpp"
@@ -40,6 +41,7 @@ std::span<const EffectType> effect_types() {
       row<Air>(),
       row<Bending>(),
       row<Pressure>(),
+      row<InternalDamping>(),
       row<MovingPins>(),
       row<Sphere>(),
       row<Ground>(),

@@ -5,7 +5,7 @@
 namespace drape {
 
 BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver, bool instantaneous)
-    : MinimisingScheme(system, system.step, make_solver),
+    : MinimisingScheme(system, system.step, make_solver, Directions::at_start),
       of_the_moment_(instantaneous),
       books_(system, objective_, *solver_) {
   if (!system.contacts.empty()) contact_.emplace(system);

@@ -13,6 +13,7 @@
 #include "sim/schemes/field_solve.hpp"
 #include "sim/schemes/scheme.hpp"
 #include "sim/solvers/minimiser.hpp"
+#include "sim/step_dissipation.hpp"
 
 namespace drape {
 
@@ -29,13 +30,19 @@ class MinimisingScheme : public Scheme {
   [[nodiscard]] std::optional<Accuracy> accuracy() const override { return solver_->accuracy(); }
 
  protected:
+  /// Positions that give the dashpots their directions in a minimisation: the first ones, where their forces keep the
+  /// angular momentum of a step of backward Euler; or the last ones as predicted by the velocities, for second order.
+  enum class Directions { at_start, predicted };
+
   /// @param duration time covered by one minimisation [s]
-  MinimisingScheme(const System& system, double duration, const MakeSolver& make_solver)
+  /// @param dashpots  their directions in a minimisation
+  MinimisingScheme(const System& system, double duration, const MakeSolver& make_solver, Directions dashpots)
       : system_(system),
         objective_(system, duration),
         solver_(make_solver(objective_)),
         point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
         free_(is_free(system)),
+        dashpots_(dashpots),
         other_(point_) {
     if (system.drag != nullptr) fields_.emplace(system, objective_);
   }
@@ -48,6 +55,7 @@ class MinimisingScheme : public Scheme {
   template <class Begun, class Minimise>
   StepReport solve_with_fields(const State& from, const Vertices& force, double end, const Vertices* expected,
                                const Begun& begun, const Minimise& minimise) {
+    begin_dissipations(from, end);
     const auto start = [&](const Vertices& all) {
       objective_.begin(from.x, from.v, all, end);
       begun();
@@ -93,6 +101,18 @@ class MinimisingScheme : public Scheme {
   std::optional<FieldSolve> fields_;  // if there are velocity fields
 
  private:
+  /// Begins the energies of the dashpots in a minimisation from a state to a time [s].
+  void begin_dissipations(const State& from, double end) {
+    if (system_.dissipations.empty()) return;
+    const double t = objective_.duration();
+    const bool predicted = dashpots_ == Directions::predicted;
+    if (predicted) {
+      sum(system_.threads, from.x, t, from.v, ahead_);
+      system_.place_pins(end, ahead_);
+    }
+    for (StepDissipation* one : system_.dissipations) one->begin(predicted ? ahead_ : from.x, from.x, t);
+  }
+
   /// Sets the initial guess of a minimisation from a state. It follows the expected acceleration, or else starts at the
   /// objective's y with the restraint's acceleration added. With the error rule it uses the end of the step under
   /// constant initial forces if g is lower there, which is exact at rest.
@@ -118,6 +138,8 @@ class MinimisingScheme : public Scheme {
     if (other_.value < point_.value) std::swap(point_, other_);
   }
 
+  Directions dashpots_;
+  Vertices ahead_ = objective_.y();  // predicted positions
   Expected expected_;
   Iterate other_;  // alternative initial guess
 };

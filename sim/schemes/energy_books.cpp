@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/parallel/loops.hpp"
+#include "sim/step_dissipation.hpp"
 
 namespace drape {
 namespace {
@@ -163,7 +164,8 @@ double EnergyBooks::shed(Iterate& point, bool touches) {
 void EnergyBooks::end(const Iterate& point) {
   if (!steady_) return;
   // Use the lower bound, so that a continued motion matches one that starts here.
-  const double energy = point.value - objective_.inertial_value(point.x);
+  double energy = point.value - objective_.inertial_value(point.x);
+  for (StepDissipation* one : system_.dissipations) energy -= one->value(point.x);
   end_energy_ = std::max(0.0, energy - objective_.rounding(point.value));
 }
 

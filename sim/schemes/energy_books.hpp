@@ -13,6 +13,9 @@ namespace drape {
 /// At the iteration cap it is shortened towards x until it gains nothing. So a method far from its minimum, like liu13
 /// with very stiff springs, or at a minimum of a crumpled cloth, loses energy and never gains any.
 ///
+/// Dashpots add their dissipation potential P to g. It is zero at the start and dissipates 2 P, so the books count half
+/// of the dissipation as energy of the cloth at the end of the step.
+///
 /// One gain is tolerated if the tolerance is met, since the homework's tolerances stop there. It is a tenth of the
 /// largest work of the forces in a step, ‖h M⁻¹f‖_M ‖v'‖_M. In return the step must lose as much elsewhere, ½‖v' −
 /// v‖²_M, or the forces must take as much, −W. This gain is proportional to the speed and independent of the cloth's

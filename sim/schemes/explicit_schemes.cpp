@@ -1,5 +1,7 @@
 #include "sim/schemes/explicit_schemes.hpp"
 
+#include <algorithm>
+
 #include "sim/parallel/vectors.hpp"
 
 namespace drape {
@@ -23,6 +25,8 @@ SemiImplicitEuler::SemiImplicitEuler(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count(), system.threads),
       pull_(explicit_pull(system)) {
+  if (!system.dashpots.empty())
+    damping_.emplace(system, system.whole_step / static_cast<double>(DampingKick::kicks_in(system.substeps)));
   if (!system.fields.empty()) fields_.emplace(system);
 }
 
@@ -31,12 +35,17 @@ StepReport SemiImplicitEuler::advance(State& state, StepForces& forces) {
   const double start = system_.time(state.step);
   const Vertices& force = with_energies(system_, state.x, start, forces.all(state, start), force_);
   // Do both updates in one pass if nothing changes the velocity in between.
+  const bool damped = damping_ && DampingKick::acts_in(state.step, system_.substeps);
   const bool at_once =
-      !fields_ && system_.corrections.empty() && system_.filters.empty() && system_.pin_motions.empty();
-  if (fields_) before_ = state.v;
+      !damped && !fields_ && system_.corrections.empty() && system_.filters.empty() && system_.pin_motions.empty();
+  if (fields_ || damped) before_ = state.v;
   springs_.kick_and_drift(pull_, force, at_once ? system_.step : 0, state.v, state.x);
   StepReport report;
   if (at_once) return report;
+  if (damped) {
+    damping_->set_directions(state.x);
+    damping_->apply_within(before_, state.v);
+  }
   if (fields_) {
     report.converged = fields_->kick(state.x, start, before_, state.v);
     forces.note(fields_->force());
@@ -46,10 +55,24 @@ StepReport SemiImplicitEuler::advance(State& state, StepForces& forces) {
   return report;
 }
 
+namespace {
+
+bool depends_on_velocities(const System& system) {
+  return !system.fields.empty() ||
+         std::ranges::any_of(system.forces, [](const auto& force) { return force->velocity_forces(); });
+}
+
+}  // namespace
+
 Verlet::Verlet(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count(), system.threads),
       pull_(explicit_pull(system)) {
+  if (!system.dashpots.empty() && depends_on_velocities(system)) {
+    half_damping_.emplace(system, system.step / 2);
+  } else if (!system.dashpots.empty()) {
+    damping_.emplace(system, system.whole_step / static_cast<double>(DampingKick::kicks_in(system.substeps)));
+  }
   if (!system.fields.empty()) fields_.emplace(system);
 }
 
@@ -59,18 +82,16 @@ StepReport Verlet::advance(State& state, StepForces& forces) {
   const auto drift = [&] { add_multiple(system_.threads, half, state.v, state.x); };
   const bool velocity_forces = fields_ || forces.any_of_velocity();
   StepReport report;
-  const bool at_once = !velocity_forces && system_.filters.empty() && system_.pin_motions.empty();
+  const bool damped = half_damping_ || (damping_ && DampingKick::acts_in(state.step, system_.substeps));
+  const bool at_once = !velocity_forces && !damped && system_.filters.empty() && system_.pin_motions.empty();
   system_.begin(state);
   system_.correct_half(state);
   if (!system_.filters.empty()) start_x_ = state.x;
-  if (velocity_forces) start_v_ = state.v;
   drift();
   system_.place_pins(middle, state.x);
-  const Vertices& push = forces.position_forces(state, middle);
-  const Vertices& force = with_energies(system_, state.x, middle, push, force_);
-  springs_.kick_and_drift(pull_, force, at_once ? half : 0, state.v, state.x);
+  if (damped) report.converged = kick_with_dashpots(state, middle, forces);
+  if (!damped) report.converged = kick(state, middle, forces, at_once ? half : 0);
   if (!at_once) {
-    if (velocity_forces) report.converged = kick_of_velocity(state, middle, forces);
     drift();
     system_.place_pins(end, state.x);
     if (!system_.filters.empty()) {
@@ -81,6 +102,30 @@ StepReport Verlet::advance(State& state, StepForces& forces) {
   system_.correct_half(state);
   system_.drive_pins(end, state.v);
   return report;
+}
+
+bool Verlet::kick(State& state, double time, StepForces& forces, double drift) {
+  const bool velocity_forces = fields_ || forces.any_of_velocity();
+  if (velocity_forces) start_v_ = state.v;
+  const Vertices& push = forces.position_forces(state, time);
+  const Vertices& force = with_energies(system_, state.x, time, push, force_);
+  springs_.kick_and_drift(pull_, force, drift, state.v, state.x);
+  return !velocity_forces || kick_of_velocity(state, time, forces);
+}
+
+bool Verlet::kick_with_dashpots(State& state, double time, StepForces& forces) {
+  system_.drive_pins(time, state.v);
+  DampingKick& damping = half_damping_ ? *half_damping_ : *damping_;
+  damping.set_directions(state.x);
+  if (half_damping_) damping.apply(state.v);
+  start_v_ = state.v;
+  const bool found = kick(state, time, forces, 0);
+  if (half_damping_) {
+    damping.apply(state.v);
+  } else {
+    damping.apply_within(start_v_, state.v);
+  }
+  return found;
 }
 
 bool Verlet::kick_of_velocity(State& state, double time, StepForces& forces) {

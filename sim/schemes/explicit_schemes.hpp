@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "sim/schemes/damping_kick.hpp"
 #include "sim/schemes/field_solve.hpp"
 #include "sim/schemes/scheme.hpp"
 #include "sim/spring_network.hpp"
@@ -19,7 +20,8 @@ Eigen::VectorXd explicit_pull(const System& system);
 const Vertices& with_energies(const System& system, const Vertices& x, double time, const Vertices& force,
                               Vertices& scratch);
 
-/// Symplectic (semi-implicit) Euler: v += h·a(x), velocity fields by FieldKick, the corrections, x += h·v.
+/// Symplectic (semi-implicit) Euler: v += h·a(x), the dashpots by DampingKick, velocity fields by
+/// FieldKick, the corrections, x += h·v.
 class SemiImplicitEuler final : public Scheme {
  public:
   /// @throws UsageError if the system has energies that only implicit methods support
@@ -29,9 +31,10 @@ class SemiImplicitEuler final : public Scheme {
  private:
   const System& system_;
   SpringNetwork springs_;
-  Eigen::VectorXd pull_;  // −h/m of each vertex, 0 on pins [s/kg]
-  Vertices force_;        // plus those of energies; empty without [N]
-  Vertices before_;       // velocities before the kick, if there are fields [m/s]
+  Eigen::VectorXd pull_;                // −h/m of each vertex, 0 on pins [s/kg]
+  Vertices force_;                      // plus those of energies; empty without [N]
+  Vertices before_;                     // velocities before the kick, if there are fields or dashpots [m/s]
+  std::optional<DampingKick> damping_;  // if there are dashpots
   std::optional<FieldKick> fields_;
 };
 
@@ -43,8 +46,9 @@ class SemiImplicitEuler final : public Scheme {
 /// Forces that depend on the position are evaluated at mid-step. Those that depend on velocities (air) are averaged
 /// there over the initial velocities and the resulting final ones. With the kick this is the two-stage Runge-Kutta
 /// method that averages Euler steps (Shu and Osher 1988): if none of these adds energy, it adds none. Velocity fields
-/// use the implicit midpoint rule, see FieldKick. Corrections are applied in two halves. All of this has second order.
-/// Filters do not: their change of the path is an impulse at an unknown time within the step.
+/// use the implicit midpoint rule, see FieldKick. Dashpots act between two halves of the kick (DampingKick), or in two
+/// halves around it if forces depend on velocities. Corrections are applied in two halves. All of this has second
+/// order. Filters do not: their change of the path is an impulse at an unknown time within the step.
 class Verlet final : public Scheme {
  public:
   /// @throws UsageError if the system has energies that only implicit methods support
@@ -52,6 +56,11 @@ class Verlet final : public Scheme {
   StepReport advance(State& state, StepForces& forces) override;
 
  private:
+  /// Adds the effect of all forces at a time [s] to the velocities, then moves the vertices for `drift` seconds.
+  /// Returns true if the solve for velocity fields converged.
+  bool kick(State& state, double time, StepForces& forces, double drift);
+  /// Does the same, with the dashpots and without moving the vertices.
+  bool kick_with_dashpots(State& state, double time, StepForces& forces);
   /// Adds the effect of velocity-dependent forces to the velocities, which were start_v_ before the kick. Returns true
   /// if the solve for velocity fields converged.
   bool kick_of_velocity(State& state, double time, StepForces& forces);
@@ -64,6 +73,8 @@ class Verlet final : public Scheme {
   Vertices start_x_, start_v_, way_;
   Vertices force_, more_force_;  // [N]
   Vertices before_;              // velocities before the kick [m/s]
+  // If there are dashpots: in the middle of a kick, or before and after it if forces depend on velocities.
+  std::optional<DampingKick> damping_, half_damping_;
   std::optional<FieldKick> fields_;
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "drape/sim/effects/internal_damping.hpp"
+#include "sim/schemes/damping_kick.hpp"
 #include "sim/schemes/stability_guard.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
@@ -29,6 +31,16 @@ bool allowed(SimulationSettings settings, Method method, int substeps) {
   return good;
 }
 
+/// Returns the mean number of times that an explicit substep evaluates an effect.
+/// @param stiffness see estimated_step()
+double evaluations(const Effect& effect, double substeps, double whole_step, double stiffness) {
+  const auto* damping = effect.as<InternalDamping>();
+  if (damping == nullptr) return 1;
+  const auto kicks = static_cast<double>(DampingKick::kicks_in(static_cast<std::int64_t>(substeps)));
+  const double frequency = 2 * stiffness / whole_step, duration = whole_step / kicks;
+  return kicks / substeps * DampingKick::stages_for(duration * damping->relaxation_time * frequency * frequency);
+}
+
 bool touches(const SimulationSettings& settings) {
   return std::ranges::any_of(settings.effects, [](const Effect& effect) { return effect.touches(); });
 }
@@ -40,7 +52,7 @@ double estimated_step(const SimulationSettings& settings, Method method, double 
   const auto vertices = static_cast<double>(settings.cloth.vertex_count());
   double evaluated = 0, solved = 0;
   for (const Effect& effect : settings.effects) {
-    evaluated += effect.cost().evaluated;
+    evaluated += effect.cost().evaluated * evaluations(effect, substeps, settings.step, stiffness);
     solved += effect.cost().solved;
   }
   if (is_explicit(method)) return substeps * (substep + springs * spring_of_substep + vertices * evaluated);

@@ -15,7 +15,7 @@ constexpr double delta = 1 - 1 / (2 * gamma);
 }  // namespace
 
 Sdirk2::Sdirk2(const System& system, const MakeSolver& make_solver)
-    : MinimisingScheme(system, tableau::gamma * system.step, make_solver) {
+    : MinimisingScheme(system, tableau::gamma * system.step, make_solver, Directions::predicted) {
   if (!system.contacts.empty()) touching_.emplace(system, make_solver, true);
 }
 

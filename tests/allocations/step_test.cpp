@@ -11,6 +11,7 @@
 #include "drape/sim/effects/body.hpp"
 #include "drape/sim/effects/field.hpp"
 #include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/internal_damping.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/pressure.hpp"
 #include "drape/sim/effects/self_collision.hpp"
@@ -97,6 +98,7 @@ SimulationSettings eventful(Solver solver) {
                       Air{.velocity = {1, 2, 0}, .gusts = {.speed = 1}},
                       Field{.acceleration = {"8*vy", "-8*vx", "-0.1*vz*vz"}},
                       Bending{.rigidity = 1e-4, .cross_stiffness = 1},
+                      InternalDamping{.relaxation_time = 0.01},
                       MovingPins{.pins = {0, 10},
                                  .keyframes = {{1, {0, 0, 0.2}}, {2, {0.1, 0, 0}}},
                                  .interpolation = Interpolation::smooth,

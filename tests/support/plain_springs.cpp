@@ -26,10 +26,23 @@ Vertices plain_gradient(const std::vector<Spring>& springs, const Vertices& x) {
   return gradient;
 }
 
-State exact_motion(const Cloth& cloth, const Eigen::Vector3d& acceleration, double damping, double duration,
-                   int steps) {
+Vertices plain_dashpots(const std::vector<Spring>& springs, const Vertices& x, const Vertices& v) {
+  Vertices sum = Vertices::Zero(x.rows(), 3);
+  for (const Spring& s : springs) {
+    const Eigen::RowVector3d along = (x.row(s.i) - x.row(s.j)).normalized();
+    const Eigen::RowVector3d force = s.stiffness * along.dot(v.row(s.i) - v.row(s.j)) * along;
+    sum.row(s.i) += force;
+    sum.row(s.j) -= force;
+  }
+  return sum;
+}
+
+State exact_motion(const Cloth& cloth, const Eigen::Vector3d& acceleration, double damping, double duration, int steps,
+                   double relaxation) {
   const auto accelerations = [&](const Vertices& x, const Vertices& v) {
-    Vertices a = -(cloth.masses.cwiseInverse().asDiagonal() * plain_gradient(cloth.springs, x));
+    Vertices force = plain_gradient(cloth.springs, x);
+    if (relaxation > 0) force += relaxation * plain_dashpots(cloth.springs, x, v);
+    Vertices a = -(cloth.masses.cwiseInverse().asDiagonal() * force);
     a += std::log(damping) * v;
     a.rowwise() += acceleration.transpose();
     for (const int pin : cloth.pins) a.row(pin).setZero();

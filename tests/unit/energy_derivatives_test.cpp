@@ -10,8 +10,10 @@
 
 #include "drape/sim/effects/bending.hpp"
 #include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/internal_damping.hpp"
 #include "sim/linear/newton_cholesky.hpp"
 #include "sim/linear/newton_solver.hpp"
+#include "sim/step_dissipation.hpp"
 #include "sim/step_objective.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
@@ -20,11 +22,11 @@
 namespace drape::test {
 namespace {
 
-/// An effect with an energy, on a cloth that it acts on.
+/// Effects with energies, on a cloth that they act on.
 struct Case {
   std::string name;
   std::function<Mesh()> mesh;
-  Effect effect;
+  Effects effects;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -36,11 +38,20 @@ Mesh bowl() {
 }
 const Bending bending{.rigidity = 0.3};
 
-/// The single energy of an effect.
+Effects damping() { return {InternalDamping{.relaxation_time = 0.03}}; }
+Effects bending_and_damping() { return {bending, InternalDamping{.relaxation_time = 0.03}}; }
+
+/// The energies of effects, together with the dissipation potentials of a step.
 class Term {
  public:
-  Term(const Mesh& mesh, const Effect& effect) : cloth_(cloth_of(mesh, 1, 180, {0, 3})), system_(cloth_, 0.02) {
-    effect.install(system_);
+  Term(const Mesh& mesh, const Effects& effects) : cloth_(cloth_of(mesh, 1, 180, {0, 3})), system_(cloth_, 0.02) {
+    for (const Effect& effect : effects) effect.install(system_);
+    for (const auto& dashpots : system_.dashpots) {
+      auto dissipation = std::make_unique<StepDissipation>(dashpots, system_.step, cloth_.positions);
+      dissipation->begin(cloth_.positions + 0.1 * random_vertices(cloth_.vertex_count(), 7), cloth_.positions,
+                         1.5 * system_.step);
+      system_.energies.push_back(std::move(dissipation));
+    }
     for (const auto& energy : system_.energies) hessians_.push_back(energy->make_hessian());
   }
 
@@ -106,7 +117,7 @@ double product(const Vertices& a, const Vertices& b) { return a.cwiseProduct(b).
 
 class EveryEnergy : public testing::TestWithParam<Case> {
  protected:
-  EveryEnergy() : term_(GetParam().mesh(), GetParam().effect) {}
+  EveryEnergy() : term_(GetParam().mesh(), GetParam().effects) {}
 
   /// Returns the cloth randomly displaced by up to `by` metres.
   Vertices crumpled(double by, int seed) const {
@@ -117,9 +128,11 @@ class EveryEnergy : public testing::TestWithParam<Case> {
   Term term_;
 };
 INSTANTIATE_TEST_SUITE_P(, EveryEnergy,
-                         testing::Values(Case{"BendingFromFlat", flat_mesh, bending},
-                                         Case{"BendingFromABowl", bowl, bending},
-                                         Case{"BendingOfThreeSheets", [] { return three_sheets(4); }, bending}),
+                         testing::Values(Case{"BendingFromFlat", flat_mesh, {bending}},
+                                         Case{"BendingFromABowl", bowl, {bending}},
+                                         Case{"BendingOfThreeSheets", [] { return three_sheets(4); }, {bending}},
+                                         Case{"DashpotsOfAGrid", flat_mesh, damping()},
+                                         Case{"DashpotsOfABowl", bowl, bending_and_damping()}),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST_P(EveryEnergy, HasTheSlopeItsGradientSays) {

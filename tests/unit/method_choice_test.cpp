@@ -8,6 +8,7 @@
 
 #include "drape/sim/effects/field.hpp"
 #include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/internal_damping.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/wind.hpp"
@@ -51,6 +52,20 @@ TEST(MethodChoice, IsQuasiNewtonWhereVerletCannotHaveWhatActs) {
   steep = unnamed(0.01);
   steep.effects.add(Field{.acceleration = {"-x", "0", "0"}, .stiffness_bound = 1});
   EXPECT_EQ(choose_method(steep).method, Method::verlet);
+}
+
+// The dashpots of a verlet step are evaluated the more often, the longer their relaxation time.
+TEST(MethodChoice, CountsWhatInternalDampingCosts) {
+  const auto choice = [](double time) {
+    SimulationSettings settings = unnamed(0.02);
+    if (time > 0) settings.effects.add(InternalDamping{.relaxation_time = time});
+    return choose_method(settings);
+  };
+  EXPECT_EQ(choice(0.02).method, Method::verlet);
+  EXPECT_EQ(choice(0.02).substeps, choice(0).substeps) << "the safe step is that without dashpots";
+  EXPECT_GT(choice(0.02).verlet, 2 * choice(0).verlet);
+  EXPECT_GT(choice(2).verlet, 5 * choice(0.02).verlet);
+  EXPECT_EQ(choice(20).method, Method::quasi_newton);
 }
 
 TEST(MethodChoice, FollowsFromWhatSettingsSayOfTheSolve) {
