@@ -14,6 +14,7 @@
 #include "core/text.hpp"
 #include "reports/chart.hpp"
 #include "reports/components.hpp"
+#include "reports/listing.hpp"
 #include "reports/page.hpp"
 
 namespace drape {
@@ -67,12 +68,12 @@ std::vector<NamedChart> scene_charts(const SceneResult& scene, const Comparison&
   return charts;
 }
 
-std::string write_diagrams(const CheckReport& report, const std::filesystem::path& folder) {
+std::string write_diagrams(const CheckReport& report, const std::filesystem::path& folder, FigureStyle style) {
   std::string problem;
   const auto write = [&](const SceneResult& scene, const Comparison& comparison, const std::string& prefix) {
     for (NamedChart& diagram : scene_charts(scene, comparison)) {
       diagram.name = prefix + diagram.name;
-      const std::string missing = write_chart(diagram, folder / scene.name);
+      const std::string missing = write_chart(diagram, folder / scene.name, style);
       if (problem.empty()) problem = missing;
     }
   };
@@ -283,7 +284,8 @@ Markup scene_content(const SceneResult& scene, const std::string& id) {
   Markup content;
   if (!findings.empty()) content += html::findings(findings);
   if (!scene.rerun_command.empty()) content += html::command("Check this scene again", scene.rerun_command);
-  if (!scene.accept_command.empty()) content += html::command("Accept the change", scene.accept_command);
+  if (!scene.passed() && !scene.accept_command.empty())
+    content += html::command("Accept the change", scene.accept_command);
   content += viewer(scene, scene.windows, id);
   if (!scene.animation.empty()) {
     content += html::figure(
@@ -370,7 +372,7 @@ Markup pictures_badge(const SceneResult& scene) {
   return verdict == verdict_name(scene.windows.picture) ? verdict_badge(scene.windows.picture) : Markup(verdict);
 }
 
-Markup overview(const std::vector<const SceneResult*>& scenes) {
+html::Table overview(const std::vector<const SceneResult*>& scenes) {
   html::Table table{"Checked scenes",
                     {{"Scene"},
                      {"Verdict"},
@@ -390,14 +392,18 @@ Markup overview(const std::vector<const SceneResult*>& scenes) {
                           drawn ? pictures_badge(scene) : Markup("–"),
                           drawn ? fmt::format("{:.3f}", largest_flip(c)) : "–", fmt::format("{:.1f}", scene.seconds)});
   }
-  return html::table(table);
+  return table;
 }
 
 Markup introduction(const CheckReport& report) {
   return html::paragraph(html::element("time", {{"datetime", report.date}}, report.date) +
                          fmt::format(", {:.1f} s", report.seconds)) +
          (report.command.empty() ? Markup() : html::command("Run this check again", full_command(report))) +
-         (report.accept_command.empty() ? Markup() : html::command("Accept all changes", report.accept_command));
+         (report.accept_command.empty() ? Markup() : html::command("Accept all changes", report.accept_command)) +
+         (report.overrides.empty() ? Markup()
+                                   : html::paragraph("This check ran with " + html::code(report.overrides) +
+                                                     ", so nothing of it can be accepted. First edit the scene files, "
+                                                     "then check them again without --set."));
 }
 
 std::vector<std::pair<std::string, Markup>> foot(const CheckReport& report) {
@@ -420,15 +426,18 @@ std::string html_report(const CheckReport& report) {
   page.title = headline(report) + " · drape check";
   page.heading = headline(report);
   page.introduction = introduction(report);
-  page.content = overview(scenes);
+  html::Listing listing{"scenes", overview(scenes), {}};
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const SceneResult& scene = *scenes[i];
     const std::string viewer = anchor(i) + "-pictures";
     // The details of an unchanged scene are collapsed.
     const Markup content = scene_content(scene, viewer);
-    page.content += html::section(2, anchor(i), Markup(scene.name) + verdict_badge(scene.verdict),
-                                  failed(scene) ? content : html::details("Pictures and figures", content));
+    listing.entries.push_back(
+        {anchor(i), verdict_name(scene.verdict),
+         html::section(2, anchor(i), Markup(scene.name) + verdict_badge(scene.verdict),
+                       failed(scene) ? content : html::details("Pictures and figures", content))});
   }
+  page.content = html::listing(listing);
   page.foot = foot(report);
   return html::render(page);
 }

@@ -18,7 +18,7 @@ std::vector<NamedChart> scene_charts(const SceneResult& scene, const Comparison&
 /// Those of the whole motion are called "end_to_end.motion" and "end_to_end.pictures".
 /// @returns the first problem as a sentence; empty if everything was written
 /// @throws OutputError if a file cannot be written
-std::string write_diagrams(const CheckReport& report, const std::filesystem::path& folder);
+std::string write_diagrams(const CheckReport& report, const std::filesystem::path& folder, FigureStyle style);
 
 }  // namespace drape
 

@@ -206,8 +206,10 @@ struct SceneResult {
 
 /// The results of one `drape check`.
 struct CheckReport {
-  std::string command;         ///< command as typed, without the options below
+  std::string command;         ///< command without the options below
   std::string run_options;     ///< options for output and speed: " --report out/ci --jobs 4"; empty in a merged report
+  std::string typed_command;   ///< command line as typed; empty in a merged report
+  std::string overrides;       ///< "--set cloth.mass=2"; empty: none, or a merged report
   std::string accept_command;  ///< accepts all changes; empty: there are none
   std::string date;            ///< "2026-01-31T12:00:00Z"
   Machine machine;
@@ -218,8 +220,10 @@ struct CheckReport {
   [[nodiscard]] bool passed() const;
 };
 
-/// Returns the command as typed.
-inline std::string full_command(const CheckReport& report) { return report.command + report.run_options; }
+/// Returns the command line as typed, or of a merged report one for the whole check.
+inline std::string full_command(const CheckReport& report) {
+  return report.typed_command.empty() ? report.command + report.run_options : report.typed_command;
+}
 
 /// Returns "2.1 % of the picture and frame 40 are ignored"; empty if nothing is.
 std::string describe_ignored(const SceneResult& scene);

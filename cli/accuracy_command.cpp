@@ -25,7 +25,7 @@ struct AccuracyArguments {
   std::vector<std::string> animations{"tolerances"};
   std::vector<std::string> parts;  ///< empty: all
   AccuracyOptions options;
-  std::string folder = "out/accuracy";
+  StudyFiles files{.folder = "out/accuracy"};
   bool report_only = false, resume = false;
 };
 
@@ -104,9 +104,7 @@ std::string command_line(const AccuracyArguments& arguments) {
 ExitCode report_again(const AccuracyArguments& arguments, const CommonOptions& common) {
   if (!arguments.scenes.empty())
     throw UsageError("--report-only measures nothing: it takes no scene, but -o with the folder");
-  return run_study(arguments.folder, common, [&](const std::stop_token&, Progress&) {
-    return std::optional(accuracy_report(read_runs(arguments.folder)));
-  });
+  return conclude_study(accuracy_report(read_runs(arguments.files.folder)), arguments.files, common);
 }
 
 /// Reads the results of an interrupted study in the folder, if any.
@@ -149,10 +147,10 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   study.command = command_line(arguments);
   study.provenance = study_provenance();
   const std::vector<std::string> names = unique_names(scenes);
-  AccuracyStudy begun = arguments.resume ? begun_study(arguments.folder, study.command) : AccuracyStudy{};
+  AccuracyStudy begun = arguments.resume ? begun_study(arguments.files.folder, study.command) : AccuracyStudy{};
   study.seconds = begun.seconds;
   return run_study(
-      arguments.folder, common, [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {
+      arguments.files, common, [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {
         for (std::size_t i = 0; i < scenes.size(); ++i) {
           if (take_over(begun, names[i], study)) continue;
           std::optional<SceneAccuracy> one;
@@ -166,7 +164,7 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
           if (!one) return std::nullopt;
           std::vector<StudyPicture>& pictures = study.pictures.emplace_back();
           for (const AnimatedBy animated : animations) {
-            auto picture = animate_accuracy(*one, animated, arguments.folder, options.backend, stop, progress);
+            auto picture = animate_accuracy(*one, animated, arguments.files.folder, options.backend, stop, progress);
             if (picture) pictures.push_back(std::move(*picture));
           }
           if (stop.stop_requested()) return std::nullopt;
@@ -174,7 +172,7 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
           // Save now, so that measurements survive an early end.
           study.seconds =
               begun.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-          write_file_atomically(std::filesystem::path(arguments.folder) / runs_name, runs_csv(study));
+          write_file_atomically(std::filesystem::path(arguments.files.folder) / runs_name, runs_csv(study));
         }
         return accuracy_report(study);
       });
@@ -211,8 +209,7 @@ void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& c
       "What varies between the panels of the animations: tolerances (default), methods, steps, or none"));
   add_backend_option(*sub, options.backend);
   sub->add_option("--runs", options.runs, runs_help)->check(whole_number_in({1, 1000}));
-  sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/accuracy")
-      ->check(on_one_line());
+  add_study_files(*sub, arguments->files);
   sub->add_option("--patience", options.patience,
                   "Computing time in s after which a motion of 'asked' is given up; default 20")
       ->check(number_in(positive));

@@ -15,6 +15,7 @@
 #include "cli/motion_runs.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_files.hpp"
+#include "cli/style_option.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
@@ -37,6 +38,7 @@ struct CheckArguments {
   bool end_to_end = false;
   std::size_t threads = 0, jobs = 1;
   std::string shard;
+  FigureStyle style = FigureStyle::screen;
   std::optional<double> motion_tolerance, pixels, flip;
   std::optional<int> channel;
 };
@@ -71,6 +73,10 @@ std::string override_options(const CheckArguments& arguments) {
   return text;
 }
 
+std::string backend_option(const CheckArguments& arguments) {
+  return arguments.backend == GlBackend::automatic ? "" : fmt::format(" --backend {}", backend_name(arguments.backend));
+}
+
 /// Returns the options that affect the results of a check.
 std::string command_options(const CheckArguments& arguments) {
   std::string text = override_options(arguments);
@@ -78,7 +84,7 @@ std::string command_options(const CheckArguments& arguments) {
   if (!arguments.frames.empty()) text += " --frames " + arguments.frames;
   if (arguments.end_to_end) text += " --end-to-end";
   if (arguments.update != CheckArguments().update) text += " --update " + arguments.update;
-  if (arguments.backend != GlBackend::automatic) text += fmt::format(" --backend {}", backend_name(arguments.backend));
+  text += backend_option(arguments);
   if (arguments.motion_tolerance) text += fmt::format(" --motion-tolerance {}", *arguments.motion_tolerance);
   if (arguments.channel) text += fmt::format(" --channel-limit {}", *arguments.channel);
   if (arguments.pixels) text += fmt::format(" --pixel-limit {}", *arguments.pixels);
@@ -90,10 +96,14 @@ std::string report_option(const CheckArguments& arguments) {
   return arguments.report == CheckArguments().report ? "" : " --report " + shell_word(arguments.report);
 }
 
+/// Returns the options without effect on the result of a single scene.
+std::string scene_run_options(const CheckArguments& arguments) {
+  return report_option(arguments) + (arguments.threads > 0 ? fmt::format(" --threads {}", arguments.threads) : "");
+}
+
 /// Returns the options without effect on the results: report folder and parallelism.
 std::string run_options(const CheckArguments& arguments) {
-  std::string text = report_option(arguments);
-  if (arguments.threads > 0) text += fmt::format(" --threads {}", arguments.threads);
+  std::string text = scene_run_options(arguments);
   if (arguments.jobs > 1) text += fmt::format(" --jobs {}", arguments.jobs);
   if (!arguments.shard.empty()) text += " --shard " + arguments.shard;
   return text;
@@ -125,11 +135,11 @@ class SceneChecker {
       result = unjudged_scene(scene, names_[place], settings, UsageError("there is not enough memory for this"));
     }
     const std::string file = shell_file(scene.file.string());
-    result.rerun_command = "drape check " + file + command_options(arguments_) + report_option(arguments_);
+    result.rerun_command = "drape check " + file + command_options(arguments_) + scene_run_options(arguments_);
     if (result.has_candidate()) {
       result.accept_command = accept_command(options_.artefacts) + " " + shell_word(result.name);
     } else if (arguments_.overrides.empty()) {
-      result.accept_command = "drape bless " + file;
+      result.accept_command = "drape bless " + file + backend_option(arguments_);
     }
     return result;
   }
@@ -237,6 +247,8 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   for (const std::string& scene : arguments.scenes) report.command += " " + shell_file(scene);
   report.command += command_options(arguments);
   report.run_options = run_options(arguments);
+  report.typed_command = common.command;
+  report.overrides = options.overrides;
   ResultPrinter verdicts;
   const SceneChecker judge(scenes, recorded, arguments, options);
   if (check_all(judge, part.places, arguments.jobs, common, verdicts, report)) {
@@ -245,7 +257,7 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   }
   report.machine = this_machine(report.machine.renderer);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return conclude_check(part, folder, common, verdicts);
+  return conclude_check(part, folder, arguments.style, common, verdicts);
 }
 
 void add_limits(CLI::App& sub, CheckArguments& arguments) {
@@ -276,6 +288,7 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
   add_backend_option(*sub, arguments->backend);
   sub->add_option("--report", arguments->report, "Folder for the report (HTML, JSON, JUnit); default out/check")
       ->check(on_one_line());
+  add_style_option(*sub, arguments->style);
   sub->add_option("--threads", arguments->threads, "Number of windows of motion computed at once")
       ->check(whole_number_in({1, 1024}));
   sub->add_option("--jobs", arguments->jobs, "How many scenes are checked at once; default 1")

@@ -92,6 +92,15 @@ void refuse_nothing_after_equals(std::span<const char* const> arguments) {
   }
 }
 
+/// Returns the command line quoted for a shell. The program is called drape, wherever it is.
+std::string typed_command(std::span<const char* const> arguments) {
+  std::string text = "drape";
+  for (const char* argument : arguments.subspan(std::min<std::size_t>(1, arguments.size()))) {
+    text += " " + shell_word(argument);
+  }
+  return text;
+}
+
 void print_help(const CLI::App& of, const std::string& name, const CommonOptions& common) {
   // of.help() would show the help of the chosen subcommand
   const std::string help = of.get_formatter()->make_help(&of, name, CLI::AppFormatMode::Normal);
@@ -180,6 +189,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.fallthrough();
   CommonOptions common;
+  common.command = typed_command(std::span(argv, static_cast<std::size_t>(argc)));
   auto* quiet = app.add_flag("--quiet", common.quiet, "Print errors only");
   app.add_flag("--verbose", common.verbose, "Print more details")->excludes(quiet);
 

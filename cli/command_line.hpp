@@ -16,6 +16,7 @@ struct CommonOptions {
   bool quiet = false;
   bool verbose = false;
   ColorMode color = ColorMode::automatic;
+  std::string command = {};  ///< command line as typed, quoted for a shell
 };
 
 /// The work of a subcommand, executed after parsing of the whole command line.

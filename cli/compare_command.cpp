@@ -9,10 +9,10 @@
 #include "cli/options.hpp"
 #include "cli/run_arguments.hpp"
 #include "cli/scene_files.hpp"
+#include "cli/style_option.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "compare/compare_scenes.hpp"
-#include "core/console.hpp"
 #include "core/text.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
@@ -68,28 +68,6 @@ std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_v
   return {std::move(scenes), std::move(recorded)};
 }
 
-std::string command_line(const CompareArguments& arguments) {
-  std::string text = "drape compare";
-  for (const std::string& scene : arguments.scenes) text += " " + shell_file(scene);
-  for (const std::string& value : arguments.overrides) text += " --set " + shell_word(value);
-  for (const std::string& value : arguments.varied) text += " --vary " + shell_word(value);
-  for (const std::string& path : arguments.options.outputs) text += " -o " + shell_word(path);
-  if (!arguments.grid.empty()) text += " --grid " + arguments.grid;
-  if (arguments.options.difference) text += " --difference";
-  if (arguments.options.limit) text += fmt::format(" --limit {}", *arguments.options.limit);
-  if (arguments.options.steps) text += fmt::format(" --steps {}", *arguments.options.steps);
-  if (!arguments.frames.empty()) text += " --frames " + arguments.frames;
-  for (const auto& [option, value] :
-       {std::pair(" --at ", arguments.times.at), std::pair(" --from ", arguments.times.from),
-        std::pair(" --to ", arguments.times.to), std::pair(" --every ", arguments.every)}) {
-    if (!value.empty()) text += option + value;
-  }
-  if (!arguments.sheet.empty()) text += " --sheet " + arguments.sheet;
-  if (!arguments.max_size.empty()) text += " --max-size " + shell_word(arguments.max_size);
-  if (!arguments.keep.empty()) text += " --keep " + arguments.keep;
-  return text;
-}
-
 /// Sets the frame interval and the frames to draw. The first scene defines the time.
 void choose_moments(const CompareArguments& arguments, std::vector<Scene>& scenes, CompareOptions& options) {
   Scene& first = scenes.front();
@@ -137,7 +115,7 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
   if (options.outputs.empty()) options.outputs = {arguments.sheet.empty() ? "out/compare.gif" : "out/compare.png"};
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.largest_file = parse_file_limit(arguments.max_size, arguments.keep, options.outputs);
-  options.command = command_line(arguments);
+  options.command = common.command;
   std::vector<Scene> scenes;
   std::tie(scenes, options.recorded) = load_variations(arguments);
   choose_moments(arguments, scenes, options);
@@ -203,6 +181,7 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
   sub->add_option("--every", arguments->every,
                   "N: a frame after every N steps of the first motion instead of by its [video] fps and speed; 0.1s: "
                   "the same in time");
+  add_style_option(*sub, options.style);
   add_quality_option(*sub, arguments->overrides);
   add_backend_option(*sub, options.backend);
   sub->callback(

@@ -137,17 +137,6 @@ std::vector<std::string> pages_of(const AuditArguments& arguments, const std::ve
   return pages;
 }
 
-std::string reproducing_command(const AuditArguments& arguments, const std::string& motion) {
-  const AuditOptions& options = arguments.options;
-  std::string text = "drape audit " + shell_file(motion);
-  for (const std::string& value : arguments.overrides) text += " --set " + shell_word(value);
-  if (options.stretch) text += fmt::format(" --max-stretch {:g}", *options.stretch);
-  if (options.depth != AuditOptions{}.depth) text += fmt::format(" --max-depth {:g}", arguments.deepest);
-  if (options.steps) text += fmt::format(" --steps {}", *options.steps);
-  if (!arguments.held.empty()) text += " --held " + shell_word(arguments.held);
-  return text + " -o " + shell_word(arguments.page);
-}
-
 ExitCode audit_one(const AuditArguments& arguments, const SceneToRun& motion, const std::string& page,
                    const CommonOptions& common) {
   AuditOptions options = arguments.options;
@@ -157,8 +146,8 @@ ExitCode audit_one(const AuditArguments& arguments, const SceneToRun& motion, co
   run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) {
     found.emplace(audit_motion(motion.scene, motion.recorded, options, stop, progress));
     if (page.empty()) return;
-    write_file_atomically(page, audit_page(*found, draw_findings(motion.scene, *found, arguments.backend),
-                                           reproducing_command(arguments, motion.scene.file.string())));
+    write_file_atomically(page,
+                          audit_page(*found, draw_findings(motion.scene, *found, arguments.backend), common.command));
   });
   const AuditReport& report = *found;
   if (!common.quiet || !report.clean()) {

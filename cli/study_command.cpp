@@ -10,6 +10,7 @@
 
 #include "cli/command_line.hpp"
 #include "cli/options.hpp"
+#include "cli/style_option.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
 #include "core/files.hpp"
@@ -29,13 +30,13 @@ namespace drape {
 namespace {
 
 struct HomeworkArguments {
-  std::string folder = "out/homework";
+  StudyFiles files{.folder = "out/homework"};
   RunCount runs;
 };
 
 ExitCode run_homework(const HomeworkArguments& arguments, const CommonOptions& common) {
-  return run_study(arguments.folder, common, [&](const std::stop_token& stop, Progress& progress) {
-    return report_of(study_homework(arguments.runs, stop, progress), homework_report);
+  return run_study(arguments.files, common, [&](const std::stop_token& stop, Progress& progress) {
+    return report_of(study_homework(arguments.runs, stop, progress), homework_report, common);
   });
 }
 
@@ -43,8 +44,7 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
   auto arguments = std::make_shared<HomeworkArguments>();
   CLI::App* homework =
       study.add_subcommand("homework", "Measure the homework's tables again and compare with its report");
-  homework->add_option("-o,--output", arguments->folder, "Folder for the results; default out/homework")
-      ->check(on_one_line());
+  add_study_files(*homework, arguments->files);
   homework->add_option("--runs", arguments->runs, runs_help)->check(whole_number_in({1, 1000}));
   homework->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_homework(*arguments, common); }; });
@@ -52,20 +52,27 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
 
 }  // namespace
 
-ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& common,
+void add_study_files(CLI::App& subcommand, StudyFiles& files) {
+  subcommand.add_option("-o,--output", files.folder, "Folder for the results; default " + files.folder)
+      ->check(on_one_line());
+  add_style_option(subcommand, files.style);
+}
+
+ExitCode run_study(const StudyFiles& files, const CommonOptions& common,
                    const std::function<std::optional<StudyReport>(const std::stop_token&, Progress&)>& measure) {
-  require_writable(folder / report_page);  // fail before the measurements
+  require_writable(std::filesystem::path(files.folder) / report_page);  // fail before the measurements
   std::optional<StudyReport> report;
   run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) { report = measure(stop, progress); });
   if (!report) {
     spdlog::error("interrupted: no report was written");
     return ExitCode::interrupted;
   }
-  return conclude_study(*report, folder, common);
+  return conclude_study(*report, files, common);
 }
 
-ExitCode conclude_study(const StudyReport& report, const std::filesystem::path& folder, const CommonOptions& common) {
-  const std::string problem = write_report(report, folder);
+ExitCode conclude_study(const StudyReport& report, const StudyFiles& files, const CommonOptions& common) {
+  const std::filesystem::path folder = files.folder;
+  const std::string problem = write_report(report, folder, files.style);
   if (!problem.empty()) spdlog::warn(problem);
   if (!common.quiet) {
     const std::size_t width = terminal(stdout, common.color).width;
@@ -89,12 +96,12 @@ namespace {
 
 struct ScalingArguments {
   ScalingOptions options;
-  std::string folder = "out/scaling";
+  StudyFiles files{.folder = "out/scaling"};
 };
 
 ExitCode run_scaling(const ScalingArguments& arguments, const CommonOptions& common) {
-  return run_study(arguments.folder, common, [&](const std::stop_token& stop, Progress& progress) {
-    return report_of(study_scaling(arguments.options, stop, progress), scaling_report);
+  return run_study(arguments.files, common, [&](const std::stop_token& stop, Progress& progress) {
+    return report_of(study_scaling(arguments.options, stop, progress), scaling_report, common);
   });
 }
 
@@ -106,8 +113,7 @@ void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& co
   sub->add_option("--largest", arguments->options.largest, "Cells per side of the largest grid; default 80")
       ->check(whole_number_in({10, 10000}));
   sub->add_option("--runs", arguments->options.runs, runs_help)->check(whole_number_in({1, 1000}));
-  sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/scaling")
-      ->check(on_one_line());
+  add_study_files(*sub, arguments->files);
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_scaling(*arguments, common); }; });
 }
@@ -115,13 +121,14 @@ void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& co
 namespace {
 
 struct StabilityArguments {
-  std::string folder = "out/stability", shard;
+  StudyFiles files{.folder = "out/stability"};
+  std::string shard;
   StabilityDetail detail;
 };
 
 /// Measures a shard and stores it for drape merge.
 ExitCode run_shard(const StabilityArguments& arguments, const Shard& shard, const CommonOptions& common) {
-  const std::filesystem::path file = shard_place(arguments.folder, shard) / stability_runs_name;
+  const std::filesystem::path file = shard_place(arguments.files.folder, shard) / stability_runs_name;
   require_writable(file);  // fail before the measurements
   StabilityStudy study = plan_stability(arguments.detail);
   const std::vector<std::size_t> parts = parts_of_shard(study, shard);
@@ -141,32 +148,30 @@ ExitCode run_shard(const StabilityArguments& arguments, const Shard& shard, cons
 ExitCode run_stability(const StabilityArguments& arguments, const CommonOptions& common) {
   const Shard shard = arguments.shard.empty() ? Shard() : parse_shard(arguments.shard);
   if (!shard.whole()) return run_shard(arguments, shard, common);
-  return run_study(arguments.folder, common,
+  return run_study(arguments.files, common,
                    [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {
                      StabilityStudy study = plan_stability(arguments.detail);
                      if (!measure_stability(study, parts_of_shard(study, shard), stop, progress)) return std::nullopt;
-                     return stability_report(study);
+                     return report_of(std::optional(study), stability_report, common);
                    });
 }
 
 }  // namespace
 
-ExitCode merge_stability_study(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
+ExitCode merge_stability_study(const std::vector<std::filesystem::path>& parts, const StudyFiles& to,
                                const CommonOptions& common) {
   std::vector<std::filesystem::path> files;
   for (const std::filesystem::path& part : parts) files.push_back(part / stability_runs_name);
   const MergedStability merged = merge_stability(files);
   for (const Shard& shard : merged.missing) spdlog::error("shard {} is missing: no report was written", shard.text());
-  return merged.missing.empty() ? conclude_study(stability_report(merged.study), folder, common)
-                                : ExitCode::interrupted;
+  return merged.missing.empty() ? conclude_study(stability_report(merged.study), to, common) : ExitCode::interrupted;
 }
 
 void add_stability_study(CLI::App& study, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<StabilityArguments>();
   StabilityDetail& detail = arguments->detail;
   CLI::App* stability = study.add_subcommand("stability", "Map where each method is stable, converges or blows up");
-  stability->add_option("-o,--output", arguments->folder, "Folder for the results; default out/stability")
-      ->check(on_one_line());
+  add_study_files(*stability, arguments->files);
   stability->add_option("--per-decade", detail.per_decade, "Time steps and stiffnesses per factor of ten; default 3")
       ->check(whole_number_in({1, 20}));
   stability->add_option("--steps", detail.steps, "Steps of every run; default 100")
@@ -182,7 +187,8 @@ namespace {
 struct ValidationArguments {
   ValidationOptions options;
   int jobs = 0;
-  std::string folder = "out/validation", shard;
+  StudyFiles files{.folder = "out/validation"};
+  std::string shard;
   bool report_only = false, resume = false;
 };
 
@@ -202,8 +208,8 @@ ExitCode unless_missed(ExitCode code, bool met) { return code == ExitCode::ok &&
 ExitCode validation_again(const ValidationArguments& arguments, const CommonOptions& common) {
   if (!arguments.options.cases.empty())
     throw UsageError("--report-only measures nothing: it takes no case, but -o with the folder");
-  const ValidationStudy study = validation_study(std::filesystem::path(arguments.folder) / validation_runs_name);
-  return unless_missed(conclude_study(validation_report(study), arguments.folder, common), all_met(study));
+  const ValidationStudy study = validation_study(std::filesystem::path(arguments.files.folder) / validation_runs_name);
+  return unless_missed(conclude_study(validation_report(study), arguments.files, common), all_met(study));
 }
 
 /// Measures a shard and stores it for drape merge.
@@ -230,7 +236,7 @@ ExitCode run_validation(const ValidationArguments& arguments, const CommonOption
   if (!arguments.shard.empty()) options.shard = parse_shard(arguments.shard);
   const bool whole = options.shard.whole();
   const std::filesystem::path file =
-      shard_place(arguments.folder, options.shard) / (whole ? validation_runs_name : validation_shard_name);
+      shard_place(arguments.files.folder, options.shard) / (whole ? validation_runs_name : validation_shard_name);
   options.jobs = arguments.jobs > 0 ? arguments.jobs : processors_left();
   ValidationStudy study = plan_validation(options);
   study.command = command_line(arguments);
@@ -242,7 +248,7 @@ ExitCode run_validation(const ValidationArguments& arguments, const CommonOption
     write_file_atomically(file, validation_runs(study));
   };
   if (!whole) return run_shard(study, options, file, save, common);
-  const ExitCode code = run_study(arguments.folder, common,
+  const ExitCode code = run_study(arguments.files, common,
                                   [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {
                                     if (!measure_validation(study, options, stop, progress, save)) return std::nullopt;
                                     save();
@@ -253,15 +259,15 @@ ExitCode run_validation(const ValidationArguments& arguments, const CommonOption
 
 }  // namespace
 
-ExitCode merge_validation_study(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
+ExitCode merge_validation_study(const std::vector<std::filesystem::path>& parts, const StudyFiles& to,
                                 const CommonOptions& common) {
   std::vector<std::filesystem::path> files;
   for (const std::filesystem::path& part : parts) files.push_back(part / validation_shard_name);
   const MergedValidation merged = merge_validation(files);
   for (const Shard& shard : merged.missing) spdlog::error("shard {} is missing: no report was written", shard.text());
   if (!merged.missing.empty()) return ExitCode::interrupted;
-  write_file_atomically(folder / validation_runs_name, validation_runs(merged.study));
-  return unless_missed(conclude_study(validation_report(merged.study), folder, common), all_met(merged.study));
+  write_file_atomically(std::filesystem::path(to.folder) / validation_runs_name, validation_runs(merged.study));
+  return unless_missed(conclude_study(validation_report(merged.study), to, common), all_met(merged.study));
 }
 
 void add_validation_study(CLI::App& study, const CommonOptions& common, Command& command) {
@@ -277,8 +283,7 @@ void add_validation_study(CLI::App& study, const CommonOptions& common, Command&
       ->check(whole_number_in({1, 1000}));
   sub->add_option("--patience", options.patience, "Computing time in s after which a run is given up; default 30")
       ->check(number_in({.minimum = 0, .minimum_excluded = true}));
-  sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/validation")
-      ->check(on_one_line());
+  add_study_files(*sub, arguments->files);
   sub->add_option("--shard", arguments->shard,
                   "Run only the K-th of N parts of about equal length, for drape merge: K/N");
   sub->add_flag("--resume", arguments->resume,

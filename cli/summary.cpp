@@ -299,14 +299,14 @@ std::string colored(const SceneResult& result, const CommonOptions& common) {
   return line.substr(0, at + 2) + inked(verdict, ink_of(result.verdict), where) + line.substr(at + 2 + verdict.size());
 }
 
-void write_reports(const CheckShard& shard, const std::filesystem::path& folder) {
+void write_reports(const CheckShard& shard, const std::filesystem::path& folder, FigureStyle style) {
   const auto& [html, json, junit] = check_report_files;
   write_html_report(shard.report, folder / html);
   write_file_atomically(folder / json, json_report(shard.report));
   write_file_atomically(folder / junit, junit_report(shard.report));
   if (!shard.whole) write_file_atomically(folder / check_mark, pack_shard(shard));
   write_frame_files(shard.report, folder);
-  if (const std::string missing = write_diagrams(shard.report, folder); !missing.empty()) spdlog::debug(missing);
+  if (const std::string missing = write_diagrams(shard.report, folder, style); !missing.empty()) spdlog::debug(missing);
 }
 
 /// Writes the job summary and annotations at the scenes' files, under GitHub Actions.
@@ -349,9 +349,9 @@ void tell(const SceneResult& result, const CommonOptions& common, ResultPrinter&
   if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
 }
 
-ExitCode conclude_check(const CheckShard& shard, const std::filesystem::path& folder, const CommonOptions& common,
-                        ResultPrinter& verdicts) {
-  write_reports(shard, folder);
+ExitCode conclude_check(const CheckShard& shard, const std::filesystem::path& folder, FigureStyle style,
+                        const CommonOptions& common, ResultPrinter& verdicts) {
+  write_reports(shard, folder, style);
   if (!common.quiet) verdicts.print(shown(folder / check_report_files.front()));
   tell_github(shard.report, verdicts);
   ExitCode code = exit_code(shard.report);

@@ -9,6 +9,7 @@
 
 #include "check/manifest.hpp"
 #include "cli/command_line.hpp"
+#include "reports/figure_style.hpp"
 #include "run/run_scene.hpp"
 #include "run/statistics.hpp"
 #include "sweep/results.hpp"
@@ -74,11 +75,12 @@ std::string accept_command(const std::filesystem::path& report);
 
 /// Writes the report of a check, or of one shard, and the summary for GitHub Actions.
 /// @returns the highest code of all scenes; interrupted if scenes are missing
-ExitCode conclude_check(const CheckShard& shard, const std::filesystem::path& folder, const CommonOptions& common,
-                        ResultPrinter& verdicts);
+ExitCode conclude_check(const CheckShard& shard, const std::filesystem::path& folder, FigureStyle style,
+                        const CommonOptions& common, ResultPrinter& verdicts);
 
 /// Writes the report of a sweep and prints a summary.
 /// @returns the exit code of the worst run
-ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path& folder, const CommonOptions& common);
+ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path& folder, FigureStyle style,
+                        const CommonOptions& common);
 
 }  // namespace drape

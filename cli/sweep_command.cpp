@@ -8,6 +8,7 @@
 #include "check/candidate.hpp"
 #include "cli/options.hpp"
 #include "cli/study_command.hpp"
+#include "cli/style_option.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
@@ -29,6 +30,7 @@ struct SweepArguments {
   SweepRequest request;
   std::vector<std::string> varied;
   std::string folder = "out/sweep", shard;
+  FigureStyle style = FigureStyle::screen;
   std::size_t jobs = 1, tasks = 0;
   int threads = 1;
   std::vector<std::string> slurm_options;
@@ -85,7 +87,7 @@ ExitCode report_again(const SweepArguments& arguments, const CommonOptions& comm
   require_links_inside(arguments.folder);
   std::optional<SweepFile> file = read_sweep_file(arguments.folder);
   if (!file) throw UsageError(fmt::format("{}: contains no sweep", arguments.folder));
-  return conclude_sweep(read_results(arguments.folder, std::move(*file)), arguments.folder, common);
+  return conclude_sweep(read_results(arguments.folder, std::move(*file)), arguments.folder, arguments.style, common);
 }
 
 /// Writes jobs for a cluster, and submits them if requested.
@@ -132,14 +134,17 @@ ExitCode sweep(const SweepArguments& arguments, const CommonOptions& common) {
   run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) {
     unwritten = run_sweep(plan, options, stop, progress);
   });
-  return conclude_sweep(read_results(options.folder, {plan, options.shard}, unwritten), options.folder, common);
+  SweepResults results = read_results(options.folder, {plan, options.shard}, unwritten);
+  results.typed_command = common.command;
+  return conclude_sweep(results, options.folder, arguments.style, common);
 }
 
 }  // namespace
 
-ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path& folder, const CommonOptions& common) {
+ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path& folder, FigureStyle style,
+                        const CommonOptions& common) {
   for (const std::string& trouble : results.troubles()) spdlog::error(trouble);
-  if (const std::string problem = write_sweep_report(results, folder); !problem.empty()) spdlog::warn(problem);
+  if (const std::string problem = write_sweep_report(results, folder, style); !problem.empty()) spdlog::warn(problem);
   if (!common.quiet) {
     print_wrapped(stdout, fmt::format("{}\n{}\n", results.headline(), shown(folder / sweep_page_name)));
   }
@@ -168,6 +173,7 @@ void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& comm
   add_backend_option(*sub, request.backend);
   sub->add_option("-o,--output", arguments->folder, "Folder for the runs and the report; default out/sweep")
       ->check(on_one_line());
+  add_style_option(*sub, arguments->style);
   sub->add_option("--jobs", arguments->jobs, "Runs at once; default 1, which is the only way to measure times well")
       ->check(whole_number_in({1, 1024}));
   sub->add_option("--threads", arguments->threads,
@@ -196,6 +202,7 @@ namespace fs = std::filesystem;
 struct MergeArguments {
   std::vector<std::string> folders;
   std::string output;
+  FigureStyle style = FigureStyle::screen;
 };
 
 /// Copies files and folders recursively; follows links, skips special files.
@@ -243,7 +250,8 @@ CheckShard read_shard(const fs::path& part) {
   return shard;
 }
 
-ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder, const CommonOptions& common) {
+ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder, FigureStyle style,
+                      const CommonOptions& common) {
   std::vector<CheckShard> shards;
   std::vector<std::pair<fs::path, std::string>> found;  // parts and their scenes
   for (const fs::path& part : parts) {
@@ -264,7 +272,7 @@ ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder
     }
     tell(result, common, verdicts);
   }
-  return conclude_check(whole, folder, common, verdicts);
+  return conclude_check(whole, folder, style, common, verdicts);
 }
 
 /// Returns the kind of shards in a folder, by its marker file.
@@ -294,12 +302,12 @@ ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
     parts.insert(parts.end(), found.begin(), found.end());
   }
   const fs::path folder = arguments.output.empty() ? arguments.folders.front() : arguments.output;
-  if (mark == check_mark) return merge_checks(parts, folder, common);
-  if (mark == stability_runs_name) return merge_stability_study(parts, folder, common);
-  if (mark == validation_shard_name) return merge_validation_study(parts, folder, common);
+  if (mark == check_mark) return merge_checks(parts, folder, arguments.style, common);
+  if (mark == stability_runs_name) return merge_stability_study(parts, {folder.string(), arguments.style}, common);
+  if (mark == validation_shard_name) return merge_validation_study(parts, {folder.string(), arguments.style}, common);
   SweepFile whole = merge_sweeps(parts, folder, interruption().get_token());
   if (interrupted()) return ExitCode::interrupted;
-  return conclude_sweep(read_results(folder, std::move(whole)), folder, common);
+  return conclude_sweep(read_results(folder, std::move(whole)), folder, arguments.style, common);
 }
 
 }  // namespace
@@ -310,6 +318,7 @@ void add_merge_command(CLI::App& app, const CommonOptions& common, Command& comm
   sub->add_option("DIR", arguments->folders, "Folders of shards, or a folder with shards in it")->required();
   sub->add_option("-o,--output", arguments->output, "Folder for the merged result; default the first DIR")
       ->check(on_one_line());
+  add_style_option(*sub, arguments->style);
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return merge(*arguments, common); }; });
 }

@@ -352,7 +352,8 @@ class Comparison {
   void write_diagrams(const std::filesystem::path& page) {
     const std::filesystem::path folder = page.parent_path() / (page.stem().string() + "-diagrams");
     for (const NamedChart& diagram : comparison_charts(result_)) {
-      if (const std::string missing = write_chart(diagram, folder); !missing.empty()) result_.missing = missing;
+      if (const std::string missing = write_chart(diagram, folder, options_.style); !missing.empty())
+        result_.missing = missing;
     }
   }
 

@@ -14,6 +14,7 @@
 #include "motion/vertex_order.hpp"
 #include "output/registry.hpp"
 #include "render/camera_path.hpp"
+#include "reports/figure_style.hpp"
 #include "reports/players.hpp"
 #include "run/frame_source.hpp"
 #include "run/progress.hpp"
@@ -59,7 +60,8 @@ struct CompareOptions {
   std::optional<FrameRange> frames;
   std::optional<FileLimit> largest_file;  ///< size limit of a film, see SizeLimitedEncoder
   GlBackend backend = GlBackend::automatic;
-  std::string command;  ///< the user's command, for the page
+  std::string command;                      ///< the user's command, for the page
+  FigureStyle style = FigureStyle::screen;  ///< of the page's diagrams as files
 };
 
 /// The result for one of the motions.

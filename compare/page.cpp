@@ -158,7 +158,7 @@ std::string comparison_page(const CompareResult& result, const std::vector<PageM
   page.title = "drape compare";
   page.kind = "drape compare";
   page.heading = fmt::format("{} motions side by side", result.motions.size());
-  page.introduction = html::findings(found) + html::command("Reproduce this page", command);
+  page.introduction = html::findings(found) + html::command("Run this comparison again", command);
   page.content = films(result, moments, poster, bar) + players(result) +
                  html::section(2, "figures", "Figures", figures_table(result)) +
                  html::section(2, "differences", "Differences", differences_table(result)) +

@@ -6,9 +6,11 @@
 #include <climits>
 #include <cmath>
 #include <functional>
+#include <sstream>
 #include <utility>
 
 #include "drape/scene/scene.hpp"
+#include "core/text.hpp"
 #include "reports/components.hpp"
 
 namespace drape::html {
@@ -32,6 +34,7 @@ Markup points_table(const Chart& chart) {
     return std::ranges::any_of(s.points, [](const ChartPoint& p) { return !p.command.empty(); });
   });
   Table points{chart.title, {{chart.x_title, true}, {chart.y_title, true}}, {}};
+  points.copied = false;
   if (named) points.columns.insert(points.columns.begin(), {"Series"});
   if (commanded) points.columns.push_back({"Command"});
   for (const ChartSeries& series : chart.series) {
@@ -58,10 +61,12 @@ Markup chart(const Chart& chart) {
   return element("figure", {{"class", "chart"}},
                  element("figcaption", chart.title) + legend(diagram.legend) +
                      element("p", {{"class", "axis-title"}}, chart.y_title) + svg +
-                     copies({"SVG", "PNG"}, chart.title) + points_table(chart));
+                     copies({"SVG", "PNG", "CSV", "Markdown", "LaTeX"}, chart.title) + points_table(chart));
 }
 
 Diagram still_chart(const Chart& chart) { return draw_chart(chart, Medium::file); }
+
+Diagram paper_chart(const Chart& chart, double inches) { return draw_for_paper(chart, inches); }
 
 namespace {
 
@@ -214,9 +219,19 @@ double AxisMap::place(double value) const {
 
 namespace {
 
-// Lengths in units of the drawing, which is scaled to the page.
-constexpr double width = 640, height = 340, left = 72, right = 24, top = 12, bottom = 50;
-constexpr double large = 19;              // font size in a narrow window, see chart.css
+/// Lengths in units of the drawing. The defaults are those of a page, which scales the drawing to its width.
+struct Layout {
+  double width = 640, height = 340, left = 72, right = 24, top = 12, bottom = 50;
+  double font = 19;                            // largest font size of labels: in a narrow window, see chart.css
+  double gap = 8, below = 18, half_digit = 4;  // from an axis to its labels; from a digit's base to its middle
+  double title_base = 8;                       // from the base of the last line to the lower edge
+  double sign = 1;                             // scale of the markers
+  bool spare = true;                           // draw labels that a narrow window hides, too
+  std::vector<std::string> x_title, y_title;   // lines; the latter along the axis; empty: above the drawing
+};
+
+// Lengths of a drawing for an article [CSS pixels].
+constexpr double inch = 96, paper_line = 12, paper_letter = 0.5;
 constexpr double wide_letter = 0.6;       // letter width relative to the font size
 constexpr std::size_t styles = 6;         // colours and markers of the style sheet
 constexpr std::size_t deepest = 3;        // most distinguished levels of hidden curves
@@ -225,8 +240,13 @@ constexpr std::size_t crowded = 60;       // points per series beyond which mark
 
 struct Frame {
   AxisMap x, y;
-  [[nodiscard]] double across(double value) const { return left + (width - left - right) * x.place(value); }
-  [[nodiscard]] double down(double value) const { return height - bottom - (height - top - bottom) * y.place(value); }
+  Layout layout = {};
+  [[nodiscard]] double right() const { return layout.width - layout.right; }
+  [[nodiscard]] double bottom() const { return layout.height - layout.bottom; }
+  [[nodiscard]] double span() const { return right() - layout.left; }
+  [[nodiscard]] double rise() const { return bottom() - layout.top; }
+  [[nodiscard]] double across(double value) const { return layout.left + span() * x.place(value); }
+  [[nodiscard]] double down(double value) const { return bottom() - rise() * y.place(value); }
 };
 
 Frame frame_of(const Chart& chart) {
@@ -257,27 +277,47 @@ std::vector<bool> overlapping_ticks(const std::vector<AxisMap::Tick>& ticks, dou
   return spare;
 }
 
-Markup axes(const Chart& chart, const Frame& frame) {
+/// Returns the titles of both axes.
+Markup axis_titles(const Frame& frame) {
+  const Layout& layout = frame.layout;
   Markup parts;
-  const double span = width - left - right, rise = height - top - bottom;
-  const auto style = [](bool spare) { return spare ? Attributes{{"class", "spare"}} : Attributes{}; };
-  const auto high = [](const std::string&) { return large; };
-  const auto wide = [](const std::string& label) { return large * (wide_letter * letters(label) + 0.5); };
-  const std::vector<bool> spare_y = overlapping_ticks(frame.y.ticks(), rise, high);
+  for (std::size_t i = 0; i < layout.x_title.size(); ++i) {
+    const double above = paper_line * static_cast<double>(layout.x_title.size() - 1 - i);
+    parts += svg_text(layout.left + frame.span() / 2, layout.height - layout.title_base - above, "middle",
+                      layout.x_title[i]);
+  }
+  for (std::size_t i = 0; i < layout.y_title.size(); ++i) {
+    const std::string turned = fmt::format("translate({:.1f} {:.1f}) rotate(-90)",
+                                           paper_line * (static_cast<double>(i) + 0.8), layout.top + frame.rise() / 2);
+    parts += svg_text(0, 0, "middle", layout.y_title[i], {{"transform", turned}});
+  }
+  return element("g", {{"class", "title"}}, parts);
+}
+
+Markup axes(const Frame& frame) {
+  Markup parts;
+  const Layout& layout = frame.layout;
+  const auto label = [&](double x, double y, const std::string& anchor, const std::string& text, bool spare) {
+    if (spare && !layout.spare) return Markup();
+    return svg_text(x, y, anchor, text, spare ? Attributes{{"class", "spare"}} : Attributes{});
+  };
+  const auto high = [&](const std::string&) { return layout.font; };
+  const auto wide = [&](const std::string& text) { return layout.font * (wide_letter * letters(text) + 0.5); };
+  const std::vector<bool> spare_y = overlapping_ticks(frame.y.ticks(), frame.rise(), high);
   for (std::size_t i = 0; i < spare_y.size(); ++i) {
-    const double y = height - bottom - rise * frame.y.ticks()[i].place;
-    parts += svg_line("grid", left, y, width - right, y) +
-             svg_text(left - 8, y + 4, "end", frame.y.ticks()[i].label, style(spare_y[i]));
+    const double y = frame.bottom() - frame.rise() * frame.y.ticks()[i].place;
+    parts += svg_line("grid", layout.left, y, frame.right(), y) +
+             label(layout.left - layout.gap, y + layout.half_digit, "end", frame.y.ticks()[i].label, spare_y[i]);
   }
-  const std::vector<bool> spare_x = overlapping_ticks(frame.x.ticks(), span, wide);
+  const std::vector<bool> spare_x = overlapping_ticks(frame.x.ticks(), frame.span(), wide);
   for (std::size_t i = 0; i < spare_x.size(); ++i) {
-    const double x = left + span * frame.x.ticks()[i].place;
-    parts += svg_line("grid", x, top, x, height - bottom) +
-             svg_text(x, height - bottom + 18, "middle", frame.x.ticks()[i].label, style(spare_x[i]));
+    const double x = layout.left + frame.span() * frame.x.ticks()[i].place;
+    parts += svg_line("grid", x, layout.top, x, frame.bottom()) +
+             label(x, frame.bottom() + layout.below, "middle", frame.x.ticks()[i].label, spare_x[i]);
   }
-  parts += svg_line("axis", left, top, left, height - bottom) +
-           svg_line("axis", left, height - bottom, width - right, height - bottom);
-  return parts + element("g", {{"class", "title"}}, svg_text(left + span / 2, height - 8, "middle", chart.x_title));
+  parts += svg_line("axis", layout.left, layout.top, layout.left, frame.bottom()) +
+           svg_line("axis", layout.left, frame.bottom(), frame.right(), frame.bottom());
+  return parts + axis_titles(frame);
 }
 
 /// A rectangle of the drawing.
@@ -320,13 +360,13 @@ int curves_in(const Box& box, const Chart& chart, const Frame& frame) {
 Markup level_label(const Chart& chart, const ChartLevel& level, const Frame& frame) {
   constexpr double gap = 4, capitals = 0.75;  // relative to the font size
   constexpr int places = 12;
-  const double y = frame.down(level.y), length = large * wide_letter * letters(level.label);
-  const double first = left + gap, last = std::max(first, width - right - gap - length);
+  const double y = frame.down(level.y), large = frame.layout.font, length = large * wide_letter * letters(level.label);
+  const double first = frame.layout.left + gap, last = std::max(first, frame.right() - gap - length);
   int fewest = INT_MAX;
   std::pair<double, double> best;
   bool at_end = false;  // at the end, where a wider font does no harm
   for (const double base : {y - 5, y + 5 + capitals * large}) {
-    if (base - large < top || base > height - bottom) continue;
+    if (base - large < frame.layout.top || base > frame.bottom()) continue;
     for (int k = places; k >= 0; --k) {
       const double x = first + (last - first) * k / places;
       const int found = curves_in({x - gap, base - large, x + length + gap, base + gap}, chart, frame);
@@ -336,14 +376,14 @@ Markup level_label(const Chart& chart, const ChartLevel& level, const Frame& fra
       at_end = k == places;
     }
   }
-  return svg_text(at_end ? width - right - gap : best.first, best.second, at_end ? "end" : "start", level.label);
+  return svg_text(at_end ? frame.right() - gap : best.first, best.second, at_end ? "end" : "start", level.label);
 }
 
 Markup levels(const Chart& chart, const Frame& frame) {
   Markup parts;
   for (const ChartLevel& level : chart.levels) {
     const double y = frame.down(level.y);
-    parts += level_label(chart, level, frame) + svg_line("level", left, y, width - right, y);
+    parts += level_label(chart, level, frame) + svg_line("level", frame.layout.left, y, frame.right(), y);
   }
   return element("g", {{"class", "levels"}}, parts);
 }
@@ -413,6 +453,9 @@ Markup draw_point(const ChartSeries& series, const ChartPoint& point, const Mark
   return element("g", attributes, sign);
 }
 
+/// Returns a transform that scales; empty for the scale 1.
+std::string scaled(double scale) { return scale == 1 ? "" : fmt::format(" scale({:g})", scale); }
+
 Markup draw_series(const Chart& chart, std::size_t number, const Frame& frame, Medium medium) {
   const ChartSeries& series = chart.series[number];
   std::string path;
@@ -427,7 +470,8 @@ Markup draw_series(const Chart& chart, std::size_t number, const Frame& frame, M
     path += (pen_down ? "L" : "M") + x + " " + y;
     pen_down = true;
     if (medium == Medium::page || !is_line(series)) {
-      points += draw_point(series, point, sign(style_of(chart, number)), "translate(" + x + " " + y + ")", medium);
+      const std::string place = "translate(" + x + " " + y + ")" + scaled(frame.layout.sign);
+      points += draw_point(series, point, sign(style_of(chart, number)), place, medium);
     }
     if (point.spread) {
       const auto [from, to] = *point.spread;
@@ -458,14 +502,64 @@ std::vector<LegendEntry> legend_of(const Chart& chart, const Frame& frame) {
   return entries;
 }
 
+/// Breaks a title into lines.
+std::vector<std::string> lines_of(const std::string& title, double room) {
+  std::vector<std::string> lines;
+  std::istringstream text(wrapped(title, static_cast<std::size_t>(room / paper_letter / paper_font)));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Returns the layout of a drawing for an article, whose margins just hold the labels.
+Layout paper_layout(const Chart& chart, const AxisMap& y, double inches) {
+  constexpr double least_height = 1.9, share = 0.4;  // [in], and relative to the width
+  Layout layout{.width = inch * inches,
+                .height = inch * std::max(least_height, share * inches),
+                .right = 4,
+                .top = 4,
+                .font = paper_font,
+                .gap = 4,
+                .below = 12,
+                .half_digit = 3.5,
+                .title_base = 3,
+                .sign = 0.7,
+                .spare = false,
+                .x_title = {},
+                .y_title = {}};
+  double widest = 0;
+  for (const AxisMap::Tick& tick : y.ticks()) widest = std::max(widest, letters(tick.label));
+  layout.y_title = lines_of(chart.y_title, layout.height - layout.top - 3 * paper_line);
+  layout.left = paper_line * static_cast<double>(layout.y_title.size()) + paper_letter * paper_font * (widest + 1) +
+                layout.gap + 3;
+  layout.x_title = lines_of(chart.x_title, layout.width - layout.left);
+  layout.bottom = layout.below + 5 + paper_line * static_cast<double>(layout.x_title.size());
+  return layout;
+}
+
+Diagram draw(const Chart& chart, const Frame& frame, Medium medium) {
+  Markup drawing = axes(frame);
+  for (std::size_t i = 0; i < chart.series.size(); ++i) drawing += draw_series(chart, i, frame, medium);
+  drawing += levels(chart, frame);
+  return {chart.title,
+          frame.layout.y_title.empty() ? chart.y_title : "",
+          legend_of(chart, frame),
+          frame.layout.width,
+          frame.layout.height,
+          std::move(drawing)};
+}
+
 }  // namespace
 
 Diagram draw_chart(const Chart& chart, Medium medium) {
-  const Frame frame = frame_of(chart);
-  Markup drawing = axes(chart, frame);
-  for (std::size_t i = 0; i < chart.series.size(); ++i) drawing += draw_series(chart, i, frame, medium);
-  drawing += levels(chart, frame);
-  return {chart.title, chart.y_title, legend_of(chart, frame), width, height, std::move(drawing)};
+  Frame frame = frame_of(chart);
+  frame.layout.x_title = {chart.x_title};
+  return draw(chart, frame, medium);
+}
+
+Diagram draw_for_paper(const Chart& chart, double inches) {
+  Frame frame = frame_of(chart);
+  frame.layout = paper_layout(chart, frame.y, inches);
+  return draw(chart, frame, Medium::file);
 }
 
 }  // namespace drape::html

@@ -93,6 +93,9 @@ Markup chart(const Chart& chart);
 /// Returns the chart for a separate file: only the visible points.
 Diagram still_chart(const Chart& chart);
 
+/// Returns the chart for paper_file(): of this width, with the title of the vertical axis along it.
+Diagram paper_chart(const Chart& chart, double inches);
+
 /// Purpose of a drawing.
 enum class Medium {
   page,  ///< every point has its label and its command, even if only the line is visible
@@ -100,6 +103,9 @@ enum class Medium {
 };
 
 Diagram draw_chart(const Chart& chart, Medium medium);
+
+/// Draws a chart at its size in an article. @param inches width
+Diagram draw_for_paper(const Chart& chart, double inches);
 
 }  // namespace drape::html
 

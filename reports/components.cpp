@@ -1,7 +1,10 @@
 #include "reports/components.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <stdexcept>
+
+#include "reports/diagram.hpp"
 
 namespace drape::html {
 namespace {
@@ -20,6 +23,22 @@ std::string tone_class(Tone tone) {
       return "bad";
   }
   return "";
+}
+
+/// Estimates whether a table fits a window of 390 pixels.
+bool fits_phone(const Table& table) {
+  constexpr double room = 350, letter = 8, space = 22, figure = 192;  // [pixels]
+  const auto width = [](const Markup& cell) {
+    return cell.html().find("<img") == std::string::npos ? letter * letters(plain_text(cell)) : figure;
+  };
+  double total = 0;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    double widest = width(table.columns[c].title);
+    for (const std::vector<Markup>& cells : table.rows)
+      widest = std::max(widest, c < cells.size() ? width(cells[c]) : 0);
+    total += widest + space;
+  }
+  return total <= room;
 }
 
 }  // namespace
@@ -57,7 +76,9 @@ Markup copies(const std::vector<std::string>& forms, const std::string& of) {
     const std::string says = "Copy as " + form + ": " + of;
     buttons += element("button", {{"type", "button"}, {"data-form", form}, {"aria-label", says}}, form);
   }
-  return element("p", {{"class", "copies"}}, element("span", "Copy as") + buttons);
+  return element(
+      "details", {{"class", "copies"}},
+      element("summary", {{"aria-label", "Copy: " + of}}, "Copy as") + element("div", {{"class", "forms"}}, buttons));
 }
 
 Markup table(const Table& table) {
@@ -65,11 +86,13 @@ Markup table(const Table& table) {
     Attributes attributes;
     if (tag == "th") attributes.push_back({"scope", "col"});
     if (table.columns[column].numeric) attributes.push_back({"class", "number"});
-    if (tag == "td" && !table.card_labels.empty()) attributes.push_back({"data-column", table.card_labels.at(column)});
-    return element(tag, attributes, content);
+    if (tag == "td") attributes.push_back({"data-column", plain_text(table.columns[column].title)});
+    // A card's grid takes the content as one item.
+    const bool several = tag == "td" && content.html().find('<') != std::string::npos;
+    return element(tag, attributes, several ? element("div", content) : content);
   };
   std::string style = table.columns.size() > narrow ? "wide" : "";
-  if (!table.card_labels.empty()) style += style.empty() ? "cards" : " cards";
+  if (!fits_phone(table)) style += style.empty() ? "cards" : " cards";
   Markup head, body;
   for (std::size_t c = 0; c < table.columns.size(); ++c) head += cell("th", c, table.columns[c].title);
   for (const std::vector<Markup>& cells : table.rows) {
@@ -78,12 +101,16 @@ Markup table(const Table& table) {
     for (std::size_t c = 0; c < cells.size(); ++c) line += cell("td", c, cells[c]);
     body += element("tr", line);
   }
+  const Markup menu = table.copied ? copies({"CSV", "Markdown", "LaTeX"}, table.caption) : Markup();
+  const Markup content =
+      element("table", style.empty() ? Attributes{} : Attributes{{"class", style}},
+              element("caption", table.caption) + element("thead", element("tr", head)) + element("tbody", body));
   // Scrollable areas must be reachable by keyboard, and need a name for that.
   return element(
-      "div", {{"class", "scroll"}, {"role", "region"}, {"tabindex", "0"}, {"aria-label", table.caption}},
-      element("table", style.empty() ? Attributes{} : Attributes{{"class", style}},
-              element("caption", table.caption) + element("thead", element("tr", head)) + element("tbody", body)) +
-          copies({"CSV", "Markdown", "LaTeX"}, table.caption));
+      "div", {{"class", "table"}},
+      element("div", {{"class", "scroll"}, {"role", "region"}, {"tabindex", "0"}, {"aria-label", table.caption}},
+              content) +
+          menu);
 }
 
 Markup facts(const std::vector<std::pair<std::string, Markup>>& list) {

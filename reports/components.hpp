@@ -28,7 +28,7 @@ Markup link(const std::string& href, const Markup& content);
 /// Returns a command with a copy button, under a label that describes it.
 Markup command(const std::string& label, const std::string& line);
 
-/// Returns buttons that copy the enclosing table or diagram ("SVG", "PNG").
+/// Returns a menu that copies the enclosing diagram ("SVG", "PNG") or its table ("CSV", "Markdown", "LaTeX").
 /// @param of description of the copied object for screen readers
 Markup copies(const std::vector<std::string>& forms, const std::string& of);
 
@@ -47,10 +47,10 @@ struct Table {
   std::string caption;  ///< description, also for screen readers
   std::vector<Column> columns;
   std::vector<std::vector<Markup>> rows;
-  /// Labels of the cells in a narrow window, where each row becomes a card; empty: the table stays a table.
-  std::vector<std::string> card_labels = {};
+  bool copied = true;  ///< has a menu to copy it; false: an enclosing diagram's menu does
 };
-/// Returns a table that scrolls sideways if too wide, and can be copied for LaTeX, Markdown and spreadsheets.
+/// Returns a table with a menu to copy it. A table too wide for a phone becomes cards there: one for each row, in which
+/// the columns' titles label the cells. In a wider window it scrolls sideways if necessary.
 Markup table(const Table& table);
 
 /// Returns a list of names and values.

@@ -3,7 +3,6 @@
 (() => {
   const cells = (table) => [...table.rows].map((row) => [...row.cells].map((cell) => cell.textContent.trim()));
   const numeric = (table) => [...table.rows[0].cells].map((cell) => cell.classList.contains("number"));
-  const latex = (text) => [...text].map((sign) => latexSigns[sign] || sign).join("");
 
   const forms = {
     CSV: (table) => {
@@ -17,13 +16,7 @@
       const [head, ...rows] = cells(table);
       return line(head) + line(numeric(table).map((right) => (right ? "---:" : "---"))) + rows.map(line).join("");
     },
-    LaTeX: (table) => {
-      const line = (row) => `  ${row.map(latex).join(" & ")} \\\\\n`;
-      const [head, ...rows] = cells(table);
-      const columns = numeric(table).map((right) => (right ? "r" : "l")).join("");
-      return `% needs \\usepackage{booktabs}\n\\begin{tabular}{${columns}}\n  \\toprule\n${line(head)}  \\midrule\n` +
-        `${rows.map(line).join("")}  \\bottomrule\n\\end{tabular}\n`;
-    },
+    LaTeX: (table) => latexTable(table.caption.textContent, cells(table), numeric(table)),
   };
 
   // Copy the styles of the page into the drawing, so that it stands alone.
@@ -60,47 +53,61 @@
   }
 
   // Copies the picture; saves it as a file if the clipboard accepts no pictures.
-  async function givePng(button) {
-    const picture = await png(button.closest("figure"));
+  async function givePng(menu) {
+    const picture = await png(menu.closest("figure"));
     try {
       await navigator.clipboard.write([new ClipboardItem({ "image/png": picture })]);
-      answer(button, "Copied");
+      answer(menu, "Copied");
     } catch {
       const link = document.createElement("a");
       link.href = URL.createObjectURL(picture);
       link.download = "diagram.png";
       link.click();
-      answer(button, "Saved");
+      answer(menu, "Saved");
     }
   }
 
-  function answer(button, text) {
-    const name = button.dataset.form;
-    button.textContent = text;
-    setTimeout(() => (button.textContent = name), 1500);
+  // Closes the menu, whose label tells the outcome for a moment.
+  function answer(menu, text) {
+    const label = menu.querySelector("summary");
+    menu.open = false;
+    label.textContent = text;
+    setTimeout(() => (label.textContent = "Copy as"), 1500);
   }
 
   // Copies text. Some browsers block the clipboard for local files; then the text is shown, selected, for manual copying.
-  async function give(button, text) {
+  async function give(menu, text) {
     try {
       await navigator.clipboard.writeText(text);
-      answer(button, "Copied");
+      answer(menu, "Copied");
     } catch {
       const area = document.createElement("textarea");
       area.value = text;
-      area.ariaLabel = button.ariaLabel;
+      area.ariaLabel = "Text to copy";
       area.addEventListener("blur", () => area.remove());
-      button.after(area);
+      menu.after(area);
+      menu.open = false;
       area.select();
     }
   }
 
-  for (const button of document.querySelectorAll(".copies button")) {
-    button.addEventListener("click", () => {
-      const form = forms[button.dataset.form];
-      if (form) give(button, form(button.closest(".scroll").querySelector("table")));
-      else if (button.dataset.form === "SVG") give(button, svg(button.closest("figure")));
-      else givePng(button);
+  for (const menu of document.querySelectorAll(".copies")) {
+    // The table beside the menu, or the one with a diagram's points.
+    const table = () => menu.parentElement.querySelector("table");
+    menu.addEventListener("click", ({ target }) => {
+      const name = target.dataset.form;
+      if (!name) return;
+      if (forms[name]) give(menu, forms[name](table()));
+      else if (name === "SVG") give(menu, svg(menu.closest("figure")));
+      else givePng(menu);
+    });
+    menu.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape" || !menu.open) return;
+      menu.open = false;
+      menu.querySelector("summary").focus();
     });
   }
+  addEventListener("click", ({ target }) => {
+    for (const menu of document.querySelectorAll(".copies[open]")) menu.open = menu.contains(target);
+  });
 })();

@@ -35,6 +35,15 @@ Markup legend(const std::vector<LegendEntry>& entries);
 /// font.
 std::string svg_file(const Diagram& diagram);
 
+/// Font size of a figure for an article: 8 pt [CSS pixels].
+inline constexpr double paper_font = 8.0 * 96 / 72;
+
+/// Returns an SVG document for an article: of this width, with the legend but no title, in a serif font of 8 pt.
+std::string paper_file(const Diagram& diagram, double inches);
+
+/// Returns a colour of the light theme, for example of "--s0": "#004f9e".
+std::string light_color(const std::string& name);
+
 /// Returns the number of letters in a UTF-8 text.
 double letters(std::string_view text);
 

@@ -8,6 +8,7 @@
 #include "core/files.hpp"
 #include "core/installation.hpp"
 #include "drape/core/error.hpp"
+#include "reports/pgfplots.hpp"
 
 namespace drape {
 
@@ -183,27 +184,32 @@ ResultTable points_table(const NamedChart& named, std::size_t every) {
   return table;
 }
 
-std::string write_diagram(const html::Diagram& diagram, const std::filesystem::path& folder, const std::string& name) {
-  const std::string svg = html::svg_file(diagram);
+std::string write_diagram(const html::Diagram& diagram, const std::filesystem::path& folder, const std::string& name,
+                          FigureStyle style) {
+  const bool screen = style == FigureStyle::screen;
+  const std::string svg = screen ? html::svg_file(diagram) : html::paper_file(diagram, paper_width(style));
   write_file_atomically(folder / (name + ".svg"), svg);
   std::string pdf, png;
   try {
     const SvgPrinter printer;
     pdf = printer.pdf(svg);
-    png = printer.png(svg, png_scale);
+    if (screen) png = printer.png(svg, png_scale);
   } catch (const OutputError& error) {
-    return fmt::format("the diagrams were written only as SVG, not as PDF and PNG: {}", error.what());
+    return fmt::format("the diagrams were written only as SVG, not as PDF{}: {}", screen ? " and PNG" : "",
+                       error.what());
   }
   write_file_atomically(folder / (name + ".pdf"), pdf);
-  write_file_atomically(folder / (name + ".png"), png);
+  if (screen) write_file_atomically(folder / (name + ".png"), png);
   return {};
 }
 
-std::string write_chart(const NamedChart& chart, const std::filesystem::path& folder) {
+std::string write_chart(const NamedChart& chart, const std::filesystem::path& folder, FigureStyle style) {
   const ResultTable points = points_table(chart);
   write_table(points, folder);
   if (points.rows.size() > most_set_rows) write_set_table(points_table(chart, sparse(points.rows.size())), folder);
-  return write_diagram(html::still_chart(chart.chart), folder, chart.name);
+  if (style == FigureStyle::screen) return write_diagram(html::still_chart(chart.chart), folder, chart.name);
+  write_pgfplots(chart, folder, paper_width(style));
+  return write_diagram(html::paper_chart(chart.chart, paper_width(style)), folder, chart.name, style);
 }
 
 }  // namespace drape

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reports/chart.hpp"
+#include "reports/figure_style.hpp"
 #include "reports/result_table.hpp"
 
 namespace drape {
@@ -46,13 +47,16 @@ struct NamedChart {
 /// @param every stride of the points in each series; the last is always included
 ResultTable points_table(const NamedChart& chart, std::size_t every = 1);
 
-/// Writes NAME.svg into the folder, and from it NAME.pdf for LaTeX and NAME.png, of twice the size, for word
-/// processors.
+/// Writes NAME.svg into the folder, and from it NAME.pdf for LaTeX. In the style of the screen also NAME.png, of twice
+/// the size, for word processors.
 /// @returns a sentence about missing software if the PDF and PNG cannot be made; otherwise empty
 /// @throws OutputError if a file cannot be written
-std::string write_diagram(const html::Diagram& diagram, const std::filesystem::path& folder, const std::string& name);
+std::string write_diagram(const html::Diagram& diagram, const std::filesystem::path& folder, const std::string& name,
+                          FigureStyle style = FigureStyle::screen);
 
-/// Writes the diagram of a chart, and its points as CSV, Markdown and LaTeX; the latter two thin out long tables.
-std::string write_chart(const NamedChart& chart, const std::filesystem::path& folder);
+/// Writes the diagram of a chart, and its points as CSV, Markdown and LaTeX; the latter two thin out long tables. For
+/// an article also writes it for pgfplots, see write_pgfplots().
+std::string write_chart(const NamedChart& chart, const std::filesystem::path& folder,
+                        FigureStyle style = FigureStyle::screen);
 
 }  // namespace drape

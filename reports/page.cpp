@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/build_info.hpp"
 #include "core/machine.hpp"
@@ -87,6 +88,24 @@ Markup join(const std::vector<Markup>& pieces) {
   return all;
 }
 
+std::string plain_text(const Markup& markup) {
+  constexpr std::array<std::pair<std::string_view, char>, 5> entities{
+      {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&#39;", '\''}}};
+  std::string text;
+  std::string_view html = markup.html();
+  while (!html.empty()) {
+    if (html.front() == '<') {
+      html.remove_prefix(std::min(html.find('>') + 1, html.size()));  // attributes contain no '>', see escape()
+      continue;
+    }
+    const auto* const found =
+        std::ranges::find_if(entities, [html](const auto& entity) { return html.starts_with(entity.first); });
+    text += found == entities.end() ? html.front() : found->second;
+    html.remove_prefix(found == entities.end() ? 1 : found->first.size());
+  }
+  return text;
+}
+
 std::string data_uri(std::string_view type, std::string_view bytes) {
   std::string uri("data:");
   uri += type;
@@ -109,10 +128,12 @@ Markup meta(const std::string& name, const std::string& content) {
 }  // namespace
 
 std::string render(const Page& page) {
-  const std::string style = fmt::format("{}{}{}{}{}{}{}{}{}{}", theme_css, diagram_css, page_css, chart_css, copies_css,
-                                        comparison_css, film_css, explore_css, motion_player_css, print_css);
-  const std::string script = fmt::format("{}{}{}{}{}{}const latexSigns = {};\n{}", page_js, film_js, explore_js,
-                                         motion_data_js, motion_painter_js, motion_player_js, latex_signs(), copies_js);
+  const std::string style =
+      fmt::format("{}{}{}{}{}{}{}{}{}{}{}", theme_css, diagram_css, page_css, chart_css, copies_css, comparison_css,
+                  film_css, explore_css, listing_css, motion_player_css, print_css);
+  const std::string script =
+      fmt::format("{}{}{}{}{}{}{}const latexSigns = {};\n{}{}", page_js, film_js, explore_js, listing_js,
+                  motion_data_js, motion_painter_js, motion_player_js, latex_signs(), latex_table_js, copies_js);
   const Markup head = element("meta", {{"charset", "utf-8"}}) +
                       element("meta", {{"http-equiv", "Content-Security-Policy"}, {"content", policy}}) +
                       meta("viewport", "width=device-width, initial-scale=1") + meta("color-scheme", "light dark") +

@@ -53,6 +53,9 @@ Markup join(const std::vector<Markup>& pieces);
 /// Writes & < > " ' as entities and replaces characters that HTML does not allow, see printable().
 std::string escape(std::string_view text);
 
+/// Returns the text of a piece, without its tags.
+std::string plain_text(const Markup& markup);
+
 /// Returns "data:TYPE;base64,…".
 std::string data_uri(std::string_view type, std::string_view bytes);
 

@@ -77,7 +77,7 @@ Markup strip(const Strip& strip);
 /// @param moments their names, at least one: "t = 0.40 s"
 Markup strips(const std::string& id, const std::vector<std::string>& moments, const Markup& content);
 
-/// Returns a table whose column heads sort its rows.
+/// Returns a table whose column heads sort its rows. A long one has a field that filters them.
 Markup sortable_table(const Table& table);
 
 /// Pieces of which one is visible, selected by several lists. Without scripts all are visible.

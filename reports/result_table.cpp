@@ -10,6 +10,7 @@
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "reports/latex.hpp"
+#include "reports/latex_table.hpp"
 
 namespace drape {
 namespace {
@@ -35,7 +36,15 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
-/// Returns the number of first columns that identify the rows; every part of a split table repeats them.
+}  // namespace
+
+bool is_numeric(const ResultTable& table, std::size_t column) {
+  return std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    const std::string& cell = row[column];
+    return cell.empty() || cell == "–" || std::string_view("0123456789-+").find(cell[0]) != std::string_view::npos;
+  });
+}
+
 std::size_t leading_columns(const ResultTable& table) {
   for (std::size_t count = 1; count < table.columns.size(); ++count) {
     std::set<std::vector<std::string>> seen;
@@ -45,45 +54,27 @@ std::size_t leading_columns(const ResultTable& table) {
   return 1;
 }
 
-/// Splits the columns of a wide table into parts, each of which starts with the leading columns.
 std::vector<std::vector<std::size_t>> parts_within(std::size_t width, const std::vector<std::size_t>& widths,
-                                                   std::size_t leading) {
+                                                   std::size_t leading, std::size_t gap) {
   std::vector<std::size_t> begin;
   std::size_t begin_width = 0;
   for (std::size_t c = 0; c < std::min(leading, widths.size()); ++c) {
     begin.push_back(c);
-    begin_width += 2 + widths[c];
+    begin_width += gap + widths[c];
   }
-  if (leading > 1 && begin_width > width / 2) return parts_within(width, widths, 1);
+  if (leading > 1 && begin_width > width / 2) return parts_within(width, widths, 1, gap);
   std::vector<std::vector<std::size_t>> parts{begin};
   std::size_t used = begin_width;
   for (std::size_t c = begin.size(); c < widths.size(); ++c) {
-    if (used + 2 + widths[c] > width && parts.back().size() > begin.size()) {
+    if (used + gap + widths[c] > width && parts.back().size() > begin.size()) {
       parts.push_back(begin);
       used = begin_width;
     }
     parts.back().push_back(c);
-    used += 2 + widths[c];
+    used += gap + widths[c];
   }
   return parts;
 }
-
-/// Returns true if every non-empty cell of a column starts like a number.
-bool is_numeric(const ResultTable& table, std::size_t column) {
-  return std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-    const std::string& cell = row[column];
-    return cell.empty() || cell == "–" || std::string_view("0123456789-+").find(cell[0]) != std::string_view::npos;
-  });
-}
-
-/// Returns a line of a tabular environment.
-std::string latex_line(const std::vector<std::string>& cells) {
-  std::vector<std::string> texts;
-  for (const std::string& cell : cells) texts.push_back(html::latex(cell));
-  return fmt::format("  {} \\\\\n", fmt::join(texts, " & "));
-}
-
-}  // namespace
 
 std::string three_digits(double value) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, value < 10 ? 2 : value < 100 ? 1 : 0) : "–";
@@ -146,17 +137,6 @@ std::string to_csv(const ResultTable& table) {
   return text;
 }
 
-std::string to_latex(const ResultTable& table) {
-  std::string columns, rows, notes;
-  for (std::size_t c = 0; c < table.columns.size(); ++c) columns += is_numeric(table, c) ? 'r' : 'l';
-  for (const auto& row : table.rows) rows += latex_line(row);
-  for (const std::string& note : table.notes) notes += fmt::format("% {}\n", html::latex(note));
-  return fmt::format(
-      "% {}\n{}% needs \\usepackage{{booktabs}}\n\\begin{{tabular}}{{{}}}\n  \\toprule\n{}  \\midrule\n{}  "
-      "\\bottomrule\n\\end{{tabular}}\n",
-      html::latex(table.title), notes, columns, latex_line(table.columns), rows);
-}
-
 void write_table(const ResultTable& table, const std::filesystem::path& folder) {
   write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
   if (table.rows.size() <= most_set_rows) write_set_table(table, folder);
@@ -167,9 +147,8 @@ void write_set_table(const ResultTable& table, const std::filesystem::path& fold
   write_file_atomically(folder / (table.name + ".tex"), to_latex(table));
 }
 
-html::Markup to_html(const ResultTable& table, bool cards) {
+html::Markup to_html(const ResultTable& table) {
   html::Table shown{table.title, {}, {}};
-  if (cards) shown.card_labels = table.columns;
   for (std::size_t c = 0; c < table.columns.size(); ++c)
     shown.columns.push_back({table.columns[c], is_numeric(table, c)});
   for (const auto& row : table.rows) shown.rows.emplace_back(row.begin(), row.end());

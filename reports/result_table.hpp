@@ -33,8 +33,15 @@ std::string to_text(const ResultTable& table, std::size_t width = unlimited_widt
 std::string to_markdown(const ResultTable& table);
 /// Formats a table as RFC 4180.
 std::string to_csv(const ResultTable& table);
-/// Formats a table as a tabular environment for \input; needs only booktabs.
-std::string to_latex(const ResultTable& table);
+/// Returns true if every non-empty cell of a column starts like a number.
+bool is_numeric(const ResultTable& table, std::size_t column);
+/// Returns the number of first columns that identify the rows; every part of a split table repeats them.
+std::size_t leading_columns(const ResultTable& table);
+/// Splits the columns of a wide table into parts, each of which starts with the leading columns.
+/// @param widths of the columns, in the unit of `width`
+/// @param gap    between two columns
+std::vector<std::vector<std::size_t>> parts_within(std::size_t width, const std::vector<std::size_t>& widths,
+                                                   std::size_t leading, std::size_t gap = 2);
 /// Most rows of a table in a document.
 inline constexpr std::size_t most_set_rows = 200;
 
@@ -44,7 +51,6 @@ void write_table(const ResultTable& table, const std::filesystem::path& folder);
 /// Writes only NAME.md and NAME.tex.
 /// @throws OutputError
 void write_set_table(const ResultTable& table, const std::filesystem::path& folder);
-/// @param cards show rows as cards in a narrow window
-html::Markup to_html(const ResultTable& table, bool cards = false);
+html::Markup to_html(const ResultTable& table);
 
 }  // namespace drape

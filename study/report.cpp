@@ -32,12 +32,12 @@ html::Markup to_html(const std::vector<StudyMotion>& motions, const std::string&
   return content;
 }
 
-/// @param is_answer true for the answer section: its tables come first and adapt to any window width
+/// @param is_answer true for the answer section, which begins with its tables
 html::Markup to_html(const StudySection& section, const std::string& id, bool is_answer = false) {
   html::Markup content, tables;
-  for (const ResultTable& table : section.tables) tables += to_html(table, is_answer);
-  for (const std::string& paragraph : section.text) content += html::paragraph(paragraph);
+  for (const ResultTable& table : section.tables) tables += to_html(table);
   if (is_answer) content += tables;
+  for (const std::string& paragraph : section.text) content += html::paragraph(paragraph);
   for (std::size_t i = 0; i < section.pictures.size(); ++i) {
     const StudyPicture& picture = section.pictures[i];
     content += html::figure(html::animation(picture.bytes, picture.stills, picture.caption), picture.caption) +
@@ -161,13 +161,14 @@ std::string to_page(const StudyReport& report) {
   page.kind = report.kind;
   page.title = report.title;
   page.heading = report.headline;
-  page.introduction = html::paragraph(report.introduction) + html::command("Reproduce this study", report.command);
+  page.introduction = html::paragraph(report.introduction);
   if (report.answer) {
     page.content =
         to_html(*report.answer, "answer", true) + html::section(2, "findings", "Findings", html::findings(findings));
   } else {
     page.content = html::findings(findings);
   }
+  page.content += html::command("Run this study again", report.command);
   for (std::size_t i = 0; i < report.sections.size(); ++i) {
     page.content += to_html(report.sections[i], fmt::format("section-{}", i + 1));
   }
@@ -178,7 +179,7 @@ std::string to_page(const StudyReport& report) {
   return html::render(page);
 }
 
-std::string write_report(const StudyReport& report, const std::filesystem::path& folder) {
+std::string write_report(const StudyReport& report, const std::filesystem::path& folder, FigureStyle style) {
   std::string problem;  // the first one
   const auto note = [&](const std::string& missing) {
     if (problem.empty()) problem = missing;
@@ -186,11 +187,11 @@ std::string write_report(const StudyReport& report, const std::filesystem::path&
   for (const ResultTable& table : report.data) write_table(table, folder);
   for (const StudySection& section : all_sections(report)) {
     for (const ResultTable& table : section.tables) write_table(table, folder);
-    for (const NamedChart& chart : section.charts) note(write_chart(chart, folder));
+    for (const NamedChart& chart : section.charts) note(write_chart(chart, folder, style));
     for (const StabilityMap& map : section.maps) {
       write_file_atomically(folder / (map_name(map) + ".csv"), map_csv(map));
       write_set_table(map_table(map), folder);
-      note(write_diagram(map_diagram(map), folder, map_name(map)));
+      note(write_diagram(map_diagram(map), folder, map_name(map), style));
     }
   }
   write_file_atomically(folder / "report.md", to_markdown(report));

@@ -77,6 +77,7 @@ inline constexpr const char* report_page = "report.html";
 /// PDF and PNG. The points of a diagram are written like a table. Animations are already there.
 /// @returns the first problem as a sentence; empty if everything was written
 /// @throws OutputError
-std::string write_report(const StudyReport& report, const std::filesystem::path& folder);
+std::string write_report(const StudyReport& report, const std::filesystem::path& folder,
+                         FigureStyle style = FigureStyle::screen);
 
 }  // namespace drape

@@ -237,13 +237,13 @@ html::Choices choices_of(const SweepDiagrams& diagrams) {
   return choices;
 }
 
-std::string write_sweep_report(const SweepResults& results, const std::filesystem::path& folder) {
+std::string write_sweep_report(const SweepResults& results, const std::filesystem::path& folder, FigureStyle style) {
   write_file_atomically(folder / "runs.csv", runs_csv(results));
   write_file_atomically(folder / "report.md", sweep_markdown(results));
   write_file_atomically(folder / "table.tex", sweep_latex(results));
   std::string problem;
   for (const NamedChart& chart : figure_diagrams(results).charts) {
-    const std::string missing = write_chart(chart, folder / diagrams_place);
+    const std::string missing = write_chart(chart, folder / diagrams_place, style);
     if (problem.empty()) problem = missing;
   }
   write_file_atomically(folder / sweep_page_name, sweep_page(results, folder));
@@ -432,7 +432,7 @@ std::string sweep_page(const SweepResults& results, const std::filesystem::path&
   page.kind = "drape sweep";
   page.heading = results.headline();
   if (!results.shard.whole()) page.heading += fmt::format(" (shard {})", results.shard.text());
-  page.introduction = findings(results) + html::command("Reproduce this sweep", command_of(results.plan.request));
+  page.introduction = findings(results) + html::command("Run this sweep again", results.command());
   page.content = Films(results, folder).section();
   if (const SweepDiagrams diagrams = figure_diagrams(results); !diagrams.charts.empty()) {
     page.content += html::section(2, "diagrams", "Diagrams",

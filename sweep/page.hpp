@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reports/diagram_files.hpp"
+#include "reports/figure_style.hpp"
 #include "reports/players.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/results.hpp"
@@ -55,7 +56,8 @@ inline constexpr const char* sweep_page_name = "report.html";
 /// PDF and PNG.
 /// @returns the first problem as a sentence; empty if everything was written
 /// @throws OutputError
-std::string write_sweep_report(const SweepResults& results, const std::filesystem::path& folder);
+std::string write_sweep_report(const SweepResults& results, const std::filesystem::path& folder,
+                               FigureStyle style = FigureStyle::screen);
 
 /// Returns a self-contained page: grids of synchronised films, diagrams of figures over axes, and a sortable table of
 /// all runs with their figures.

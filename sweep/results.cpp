@@ -13,7 +13,7 @@
 #include "core/sealed_json.hpp"
 #include "core/text.hpp"
 #include "reports/latex.hpp"
-#include "reports/result_table.hpp"
+#include "reports/latex_table.hpp"
 
 namespace drape {
 namespace {
@@ -85,36 +85,27 @@ std::string markdown_grid(const SweepResults& results, const SweepGrid& grid) {
   return text + "\n";
 }
 
-std::string latex_cells(const SweepRow* row) {
-  if (row == nullptr) return " & -- & --";
-  if (row->record.outcome != RunOutcome::completed)
-    return fmt::format(" & \\multicolumn{{2}}{{c}}{{{}}}", html::latex(name_of(row->record.outcome)));
-  const auto cell = [&](const char* name) {
-    const std::string text = short_figure(*row, name);
-    return text == nothing ? "--" : text;
-  };
-  return fmt::format(" & {} & {}", cell("step_us.median"), cell("iterations.mean"));
-}
-
 std::string latex_grid(const SweepGrid& grid) {
-  const std::size_t columns = grid.cells.front().size();
-  std::string form = "l", heads = grid.down == nullptr ? "" : html::latex(grid.down->name), units;
-  for (std::size_t c = 0; c < columns; ++c) {
-    form += "|rr";
-    const std::string head = grid.across == nullptr ? "" : grid.across->name + " = " + grid.across->values[c];
-    heads += fmt::format(" & \\multicolumn{{2}}{{c{}}}{{{}}}", c + 1 == columns ? "" : "|", html::latex(head));
-    units += " & $\\mu$s & it.";
+  const std::string title = "Microseconds and iterations of a step" + (grid.title.empty() ? "" : ", " + grid.title);
+  ResultTable table{
+      .name = {}, .title = title, .columns = {grid.down == nullptr ? "" : grid.down->name}, .rows = {}, .notes = {}};
+  for (std::size_t c = 0; c < grid.cells.front().size(); ++c) {
+    const std::string with =
+        grid.across == nullptr ? "" : fmt::format(", {} = {}", grid.across->name, grid.across->values[c]);
+    table.columns.insert(table.columns.end(), {"µs" + with, "iterations" + with});
   }
-  std::string text = fmt::format("\\begin{{table}}\n\\centering\n\\begin{{tabular}}{{{}}}\n", form);
-  text += fmt::format("{} \\\\\n{} \\\\\n\\hline\n", heads, units);
   for (std::size_t r = 0; r < grid.cells.size(); ++r) {
-    text += grid.down == nullptr ? "" : html::latex(grid.down->values[r]);
-    for (const SweepRow* row : grid.cells[r]) text += latex_cells(row);
-    text += " \\\\\n";
+    std::vector<std::string> cells{grid.down == nullptr ? "" : grid.down->values[r]};
+    for (const SweepRow* row : grid.cells[r]) {
+      const bool completed = row != nullptr && row->record.outcome == RunOutcome::completed;
+      const auto figure = [&](const char* name) { return row == nullptr ? nothing : short_figure(*row, name); };
+      cells.push_back(row == nullptr || completed ? figure("step_us.median") : name_of(row->record.outcome));
+      cells.push_back(completed ? figure("iterations.mean") : nothing);
+    }
+    table.rows.push_back(std::move(cells));
   }
-  const std::string of = grid.title.empty() ? "" : ", " + html::latex(grid.title);
-  return text +
-         fmt::format("\\end{{tabular}}\n\\caption{{Microseconds and iterations of a step{}}}\n\\end{{table}}\n", of);
+  return fmt::format("\\begin{{table}}\n\\centering\n{}\\caption{{{}}}\n\\end{{table}}\n", to_latex(table),
+                     html::latex(title));
 }
 
 }  // namespace
@@ -160,7 +151,7 @@ std::string sweep_markdown(const SweepResults& results) {
   std::string text = fmt::format("# {}\n\n", markdown(results.headline()));
   for (const SweepGrid& grid : grids_of(results)) text += markdown_grid(results, grid);
   for (const std::string& trouble : results.troubles()) text += fmt::format("- {}\n", markdown(trouble));
-  return text + fmt::format("\n    {}\n", shown(command_of(results.plan.request)));
+  return text + fmt::format("\n    {}\n", shown(results.command()));
 }
 
 std::string sweep_latex(const SweepResults& results) {
@@ -272,6 +263,8 @@ std::size_t SweepResults::count(RunOutcome outcome) const {
   return static_cast<std::size_t>(
       std::ranges::count_if(rows, [&](const SweepRow& row) { return row.record.outcome == outcome; }));
 }
+
+std::string SweepResults::command() const { return typed_command.empty() ? command_of(plan.request) : typed_command; }
 
 std::string SweepResults::headline() const {
   std::vector<std::string> parts;

@@ -40,13 +40,16 @@ struct SweepRow {
 struct SweepResults {
   SweepPlan plan;
   Shard shard;
-  std::vector<SweepAxis> axes;  ///< axes with at least two values; the last one runs across grids
-  std::vector<SweepRow> rows;   ///< rows of the shard's runs, in the order of the plan
+  std::vector<SweepAxis> axes;     ///< axes with at least two values; the last one runs across grids
+  std::vector<SweepRow> rows;      ///< rows of the shard's runs, in the order of the plan
+  std::string typed_command = {};  ///< command line as typed; empty: its runs are of earlier commands
 
   [[nodiscard]] const PlannedRun& planned(const SweepRow& row) const { return plan.runs[row.run]; }
   [[nodiscard]] std::size_t count(RunOutcome outcome) const;
   /// Returns "40 runs: 38 completed, 2 diverged".
   [[nodiscard]] std::string headline() const;
+  /// Returns the command line as typed, or one for the whole plan.
+  [[nodiscard]] std::string command() const;
   /// Returns a sentence per reason for incomplete runs: "2 runs diverged, …"; of many, the first 20 and a count.
   [[nodiscard]] std::vector<std::string> troubles() const;
 };
@@ -72,7 +75,7 @@ std::string runs_csv(const SweepResults& results);
 /// Returns the film grids for a report, with the microseconds and iterations of a step below each film.
 std::string sweep_markdown(const SweepResults& results);
 
-/// Returns LaTeX tables of the microseconds and iterations of a step, complete environments that need no package.
+/// Returns LaTeX tables of the microseconds and iterations of a step, complete environments, see to_latex().
 std::string sweep_latex(const SweepResults& results);
 
 /// Returns a link from the sweep's folder to a run's film or sheet; empty if it has none.

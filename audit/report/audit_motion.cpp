@@ -277,7 +277,7 @@ std::string audit_page(const AuditReport& report, const std::vector<DrawnFinding
   page.title = "drape audit: " + report.file;
   page.kind = "drape audit";
   page.heading = audit_summary(report);
-  page.introduction = html::findings(findings) + html::command("Reproduce this page", command);
+  page.introduction = html::findings(findings) + html::command("Run this audit again", command);
   page.content = html::section(2, "checks", "Checks", to_html(table));
   if (!drawn.empty()) page.content += pictures(report, drawn);
   for (const auto& [name, value] : html::provenance()) page.foot.emplace_back(name, value);

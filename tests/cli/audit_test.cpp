@@ -38,7 +38,7 @@ TEST(Audit, FindsWhatIsStretchedInARecordedMotionAndInItsScene) {
   EXPECT_EQ(scene.text.substr(scene.text.find('\n')), motion.text.substr(motion.text.find('\n')));
   EXPECT_NE(motion.text.find("is stretched to 1."), std::string::npos) << motion.text;
   const std::string page = test::content(folder.path("swing.html"));
-  EXPECT_NE(page.find("drape audit swing.drape --max-stretch 1.0001 -o swing.html"), std::string::npos);
+  EXPECT_NE(page.find("drape audit swing.drape --max-stretch 1.0001 --quiet -o swing.html"), std::string::npos);
   EXPECT_NE(page.find("data:image/png;base64"), std::string::npos);
 }
 

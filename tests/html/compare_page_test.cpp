@@ -91,7 +91,7 @@ TEST_F(ComparePage, PlaysAndPauses) {
 TEST_F(ComparePage, SaysInWhatTheMotionsDiffer) {
   open(page());
   EXPECT_EQ(
-      browser_->run("return [...document.querySelectorAll('#differences ~ .scroll td')].map((c) => c.textContent)"),
+      browser_->run("return [...document.querySelectorAll('#differences ~ .table td')].map((c) => c.textContent)"),
       (nlohmann::json{"integrator.method", "liu13", "implicit"}));
   EXPECT_EQ(browser_->run("return document.querySelector('.film figure:nth-child(2) figcaption').textContent"),
             "implicit <exact>");

@@ -13,8 +13,9 @@ namespace {
 class DiagramFile : public test::InBrowser {
  protected:
   /// Checks that every word is within the picture, and none overlaps another.
-  void expect_legible(const html::Diagram& diagram) {
-    open(html::svg_file(diagram), "diagram.svg");
+  void expect_legible(const html::Diagram& diagram) { expect_legible(html::svg_file(diagram)); }
+  void expect_legible(const std::string& svg) {
+    open(svg, "diagram.svg");
     EXPECT_EQ(browser_->console_problems(), std::vector<std::string>());
     EXPECT_EQ(browser_->requests(), std::vector<std::string>());
     const std::string problems = browser_->run(R"(
@@ -72,6 +73,20 @@ TEST_F(DiagramFile, IsLegibleWhateverTheAxesAre) {
   }
 }
 
+TEST_F(DiagramFile, IsLegibleOnPaper) {
+  using enum html::Scale;
+  for (const double inches : {3.3, 7.0}) {
+    for (const html::Scale x : {linear, logarithmic}) {
+      for (const double factor : {1.1, 40.0, 1e12}) {
+        SCOPED_TRACE(factor);
+        expect_legible(
+            html::paper_file(html::paper_chart(chart_of(x, logarithmic, 3e-7, 3e-7 * factor), inches), inches));
+        expect_legible(html::paper_file(html::paper_chart(chart_of(x, linear, 137, 137 * factor), inches), inches));
+      }
+    }
+  }
+}
+
 StabilityMap map_of(int per_decade) {
   StabilityMap map;
   map.method = Method::quasi_newton;
@@ -91,7 +106,10 @@ StabilityMap map_of(int per_decade) {
 }
 
 TEST_F(DiagramFile, OfAStabilityMapIsLegible) {
-  for (const int per_decade : {1, 3}) expect_legible(map_diagram(map_of(per_decade)));
+  for (const int per_decade : {1, 3}) {
+    expect_legible(map_diagram(map_of(per_decade)));
+    for (const double inches : {3.3, 7.0}) expect_legible(html::paper_file(map_diagram(map_of(per_decade)), inches));
+  }
 }
 
 TEST_F(DiagramFile, OfAStabilityMapIsLegibleOnAPageInANarrowWindow) {

@@ -6,6 +6,7 @@
 #include "reports/chart.hpp"
 #include "reports/components.hpp"
 #include "reports/latex.hpp"
+#include "reports/latex_table.hpp"
 #include "reports/page.hpp"
 #include "reports/players.hpp"
 #include "tests/html/html_page.hpp"
@@ -140,7 +141,7 @@ TEST_F(Paper, KeepsHeadingsWithWhatTheyAreOf) {
     open_page(content);
     print();
     const std::vector<int> headings = columns_of(*browser_, "main h2"), charts = columns_of(*browser_, ".chart"),
-                           tables = columns_of(*browser_, "main > section > .scroll");
+                           tables = columns_of(*browser_, "main > section > .table");
     EXPECT_EQ(headings.at(0), charts.at(0)) << filler;
     EXPECT_EQ(headings.at(1), tables.at(0)) << filler;
   }
@@ -156,7 +157,6 @@ TEST_F(Paper, ShowsCardsInANarrowWindow) {
   Table answer{"What to take", {{"error"}, {"below 1 mm"}, {"below 0.1 mm"}}, {}};
   answer.rows = {{"whole [ms per second]", "quasi-newton, accuracy 1e-3: 12.4", "liu13, h = 0.001 s: 40.1"},
                  {"one step [µs]", "liu13, ε = 1e-4: 31.0", ""}};
-  answer.card_labels = {"error", "below 1 mm", "below 0.1 mm"};
   open_page(table(answer));
   keep_screenshots("cards");
   browser_->set_width(390);
@@ -170,12 +170,68 @@ TEST_F(Paper, ShowsCardsInANarrowWindow) {
   EXPECT_EQ(browser_->run("return getComputedStyle(document.querySelector('td + td')).display"), "table-cell");
 }
 
+TEST_F(Paper, LeavesATableThatFitsANarrowWindowATable) {
+  open_page(table({"Small", {{"method"}, {"µs", true}}, {{"liu13", "0.5"}, {"implicit", "12.5"}}}));
+  browser_->set_width(390);
+  EXPECT_EQ(browser_->run("return getComputedStyle(document.querySelector('td')).display"), "table-cell");
+  EXPECT_EQ(browser_->run("const s = document.querySelector('.scroll'); return s.scrollWidth <= s.clientWidth"), true);
+}
+
+TEST_F(Paper, LabelsACardsCellsByTheTextOfTheirHeads) {
+  const std::string words(30, 'w');
+  open_page(
+      table({"Runs", {{"run"}, {code("a.b") + " = <2>"}}, {{words, badge("completed", Tone::good) + " and more"}}}));
+  browser_->set_width(390);
+  EXPECT_EQ(browser_->run("return getComputedStyle(document.querySelector('td + td'), '::before').content"),
+            "\"a.b = <2>\"");
+  // A cell of several pieces stays beside its label.
+  EXPECT_EQ(browser_->run("const td = document.querySelector('td + td');"
+                          "return td.children.length === 1 && td.firstElementChild.getBoundingClientRect().left > "
+                          "td.getBoundingClientRect().left + 100"),
+            true);
+}
+
+TEST_F(Paper, HasOneMenuToCopyADiagramOrItsPoints) {
+  open_page(chart(sample_chart()));
+  EXPECT_EQ(browser_->run("return document.querySelectorAll('.copies').length"), 1);
+  EXPECT_EQ(browser_->run("return [...document.querySelectorAll('.copies button')].map((b) => b.textContent).join()"),
+            "SVG,PNG,CSV,Markdown,LaTeX");
+  EXPECT_EQ(seen(".copies button"), 0);
+  browser_->click(".copies summary");
+  EXPECT_EQ(seen(".copies button"), 5);
+  EXPECT_TRUE(copied("[data-form=CSV]").starts_with("Series,step [s],error [m]\nimplicit,1,1\n"))
+      << copied("[data-form=CSV]");
+  EXPECT_EQ(seen(".copies button"), 0) << "open after a choice";
+  browser_->click(".copies summary");
+  browser_->click("h1");
+  EXPECT_EQ(seen(".copies button"), 0) << "open after a click elsewhere";
+}
+
+TEST_F(Paper, HasDiagramsAndCommandsAsWideAsItsText) {
+  open_page(paragraph(std::string(2000, 'x') + " y") + chart(sample_chart()) + command("Again", "drape"));
+  for (const int width : {390, 1200}) {
+    browser_->set_width(width);
+    EXPECT_EQ(browser_->run("return new Set(['main > p', '.chart', '.chart > svg', '.command'].map((s) => "
+                            "Math.round(document.querySelector(s).getBoundingClientRect().width))).size"),
+              1)
+        << width;
+  }
+}
+
+TEST_F(Paper, PrintsNoHeadingOfWhatIsNotPrinted) {
+  open_page(section(2, "a", "Closed", details("Turn the cloth", paragraph("A player."))) +
+            section(2, "b", "Open", paragraph("Text.")));
+  EXPECT_EQ(seen("main h2"), 2);
+  print();
+  EXPECT_EQ(seen("main h2"), 1);
+}
+
 TEST_F(Paper, TakesTablesFromTheClipboard) {
   open_page(table({"A table", {{"method"}, {"ε_1, %", true}}, {{"a, \"b\"", "0.5"}}}));
   EXPECT_EQ(copied("[data-form=CSV]"), "method,\"ε_1, %\"\n\"a, \"\"b\"\"\",0.5\n");
   EXPECT_EQ(copied("[data-form=Markdown]"), "| method | ε\\_1, % |\n| --- | ---: |\n| a, \"b\" | 0.5 |\n");
   const std::string latex = copied("[data-form=LaTeX]");
-  EXPECT_NE(latex.find("\\begin{tabular}{lr}\n  \\toprule\n  method & $\\varepsilon$\\_1, \\% \\\\\n"),
+  EXPECT_NE(latex.find("\\begin{tabular}{@{}lr@{}}\n  \\toprule\n  method & $\\varepsilon$\\_1, \\% \\\\\n"),
             std::string::npos)
       << latex;
 }
@@ -207,6 +263,22 @@ TEST_F(Paper, TakesLatexAsFilesHaveIt) {
   open_page(table({"A table", {{"a"}}, {{signs}}}));
   const std::string copy = copied("[data-form=LaTeX]");
   EXPECT_NE(copy.find("  " + latex(signs) + " \\\\\n"), std::string::npos) << copy;
+}
+
+TEST_F(Paper, WrapsTablesForLatexAsFilesDo) {
+  ResultTable small{"", "A & b", {"method", "µs"}, {{"liu13", "0.5"}, {"a -- b", "–"}}, {}};
+  ResultTable words{"", "Words", {"error", "below 1 mm"}, {}, {}};
+  words.rows = {{"whole motion [ms per second of motion]", "quasi-newton with an accuracy of 1e-3 and 12.4 steps"},
+                {"one STEP ≤ ‖∇g‖", ""}};
+  ResultTable wide{"", "Wide", {"method", "step"}, {{"liu13", "0.1"}, {"liu13", "0.2"}}, {}};
+  for (int c = 0; c < 30; ++c) {
+    wide.columns.push_back("quantity number " + std::to_string(c));
+    for (auto& row : wide.rows) row.push_back("0.123456");
+  }
+  for (const ResultTable& one : {small, words, wide}) {
+    open_page(to_html(one));
+    EXPECT_EQ(copied("[data-form=LaTeX]"), to_latex(one));
+  }
 }
 
 TEST_F(Paper, ShowsEveryComparedPicture) {

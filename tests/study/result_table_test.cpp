@@ -1,4 +1,4 @@
-#include "reports/result_table.hpp"
+#include "reports/latex_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -54,8 +54,9 @@ TEST(ResultTable, EscapesWhatMarkdownWouldSplit) {
 TEST(ResultTable, IsWrittenForLatex) {
   EXPECT_EQ(
       to_latex(table),
-      "% Title\n% A note.\n% needs \\usepackage{booktabs}\n\\begin{tabular}{lr}\n  \\toprule\n  method & µs \\\\\n"
-      "  \\midrule\n  a, \"b\" $|$ c & 9.5 \\\\\n  d & -- \\\\\n  \\bottomrule\n\\end{tabular}\n");
+      "% Title\n% A note.\n% needs \\usepackage{array,booktabs}; fits a column of 3.3 in\n"
+      "{\\footnotesize\\setlength{\\tabcolsep}{3pt}%\n\\begin{tabular}{@{}lr@{}}\n  \\toprule\n  method & µs \\\\\n"
+      "  \\midrule\n  a, \"b\" $|$ c & 9.5 \\\\\n  d & -- \\\\\n  \\bottomrule\n\\end{tabular}}\n");
 }
 
 std::string output_of(const std::string& command) {

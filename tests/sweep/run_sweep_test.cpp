@@ -187,7 +187,7 @@ TEST_F(Sweep, WritesWhatAReportNeeds) {
   }
   EXPECT_NE(text.find("| µs per step |"), std::string::npos);
   const std::string latex = test::content(folder_.path("out/table.tex"));
-  EXPECT_NE(latex.find("\\begin{tabular}{l|rr|rr}"), std::string::npos) << latex;
+  EXPECT_NE(latex.find("\\usepackage{array,booktabs}"), std::string::npos) << latex;
   EXPECT_NE(latex.find("integrator.method = implicit"), std::string::npos) << latex;
   EXPECT_NE(test::content(folder_.path("out/report.html")).find("films-in-step"), std::string::npos);
   const std::string diagram = folder_.path("out/diagrams/step_us.median-over-integrator.method");
