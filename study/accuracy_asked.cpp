@@ -117,6 +117,18 @@ std::vector<Offer> solve_offers(const SceneAccuracy& scene) {
   return offers;
 }
 
+std::string first_answer(const SceneAccuracy& scene) {
+  for (const Kind& kind : kinds_of(scene)) {
+    for (const double limit : limits) {
+      if (!why_none(kind, limit).empty()) continue;
+      const Offer& offer = *find_cheapest(kind.offers, limit).first;
+      return fmt::format("Below {}, {} at {} costs least: {} {} ({})", readable_length(limit), offer.method, offer.at,
+                         three_digits(offer.cost.median), kind.unit, kind.name);
+    }
+  }
+  return {};
+}
+
 ResultTable answer_table(const SceneAccuracy& scene) {
   ResultTable table{
       scene.name + "-answer", fmt::format("{}: what to take for an error", scene.scene), {"error"}, {}, {}};

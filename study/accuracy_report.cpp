@@ -449,7 +449,12 @@ void add_findings(StudyReport& report, const SceneAccuracy& scene) {
   }
 }
 
+/// Returns the answer in one sentence: of one scene the method to take, of several the range of costs.
 std::string headline(const std::vector<SceneAccuracy>& scenes) {
+  if (scenes.size() == 1) {
+    const std::string answer = first_answer(scenes.front());
+    return answer.empty() ? "What accuracy costs" : answer;
+  }
   double least = INFINITY, most = 0;
   for (const SceneAccuracy& scene : scenes) {
     if (scene.points.empty()) continue;

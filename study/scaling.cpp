@@ -255,6 +255,16 @@ std::vector<Growth> growths(const ScalingStudy& study) {
   return all;
 }
 
+/// Returns the answer in one sentence: the methods whose time grows least and most.
+std::string headline(std::vector<Growth> all) {
+  std::erase_if(all, [](const Growth& g) { return !std::isfinite(g.step); });
+  if (all.empty()) return "How time and memory grow with the cloth";
+  const auto [least, most] = std::ranges::minmax_element(all, {}, &Growth::step);
+  const std::string first =
+      fmt::format("Time per step grows as n to the power {} ({})", exponent(least->step), least->method);
+  return all.size() == 1 ? first : first + fmt::format(" to {} ({})", exponent(most->step), most->method);
+}
+
 ResultTable time_table(const ScalingStudy& study) {
   ResultTable table{
       "scaling-times",
@@ -351,7 +361,7 @@ StudyReport scaling_report(const ScalingStudy& study) {
       "The homework's cloth on the sphere, k = 180 N/m, h = 0.02 s and ε = 1e-3 m, on ever finer grids. Every method "
       "starts from the same state, 0.5 s into the motion.";
   report.seconds = study.seconds;
-  report.headline = "How time and memory grow with the cloth";
+  report.headline = headline(growths(study));
   for (const Growth& g : growths(study)) {
     const auto last = std::find_if(study.points.rbegin(), study.points.rend(),
                                    [&](const ScalingPoint& p) { return p.method == g.method; });

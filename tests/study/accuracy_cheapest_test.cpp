@@ -35,6 +35,8 @@ TEST(Cheapest, IsTheAnswerOfTheStudy) {
             (std::vector<std::string>{"whole, at 0.2 s [ms per second of motion]", "verlet, h = 0.01 s: 5.00",
                                       "implicit, accuracy = 0.0001 m: 90.0", "none of those run",
                                       "unknown: the reference is not accurate enough"}));
+  EXPECT_EQ(first_answer(test::invented_study().scenes.front()),
+            "Below 1 mm, verlet at h = 0.01 s costs least: 5.00 ms per second of motion (whole, at 0.2 s)");
   const std::string page = to_page(report);
   EXPECT_LT(page.find("What to take"), page.find(">Findings<"));
 }
