@@ -511,7 +511,7 @@ std::vector<std::string> lines_of(const std::string& title, double room) {
 }
 
 /// Returns the layout of a drawing for an article, whose margins just hold the labels.
-Layout paper_layout(const Chart& chart, const AxisMap& y, double inches) {
+Layout paper_layout(const Chart& chart, const AxisMap& x, const AxisMap& y, double inches) {
   constexpr double least_height = 1.9, share = 0.4;  // [in], and relative to the width
   Layout layout{.width = inch * inches,
                 .height = inch * std::max(least_height, share * inches),
@@ -529,8 +529,14 @@ Layout paper_layout(const Chart& chart, const AxisMap& y, double inches) {
   double widest = 0;
   for (const AxisMap::Tick& tick : y.ticks()) widest = std::max(widest, letters(tick.label));
   layout.y_title = lines_of(chart.y_title, layout.height - layout.top - 3 * paper_line);
-  layout.left = paper_line * static_cast<double>(layout.y_title.size()) + paper_letter * paper_font * (widest + 1) +
+  layout.left = paper_line * static_cast<double>(layout.y_title.size()) + wide_letter * paper_font * (widest + 1) +
                 layout.gap + 3;
+  if (!x.ticks().empty()) {  // room for the last label's right half
+    const AxisMap::Tick& last = x.ticks().back();
+    const double half = wide_letter * paper_font * letters(last.label) / 2;
+    const double beyond = (1 - last.place) * (layout.width - layout.left - layout.right);
+    layout.right = std::max(layout.right, half - beyond);
+  }
   layout.x_title = lines_of(chart.x_title, layout.width - layout.left);
   layout.bottom = layout.below + 5 + paper_line * static_cast<double>(layout.x_title.size());
   return layout;
@@ -558,7 +564,7 @@ Diagram draw_chart(const Chart& chart, Medium medium) {
 
 Diagram draw_for_paper(const Chart& chart, double inches) {
   Frame frame = frame_of(chart);
-  frame.layout = paper_layout(chart, frame.y, inches);
+  frame.layout = paper_layout(chart, frame.x, frame.y, inches);
   return draw(chart, frame, Medium::file);
 }
 
