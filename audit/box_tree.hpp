@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <initializer_list>
 #include <vector>
 
+#include "audit/crossings.hpp"
 #include "drape/sim/mesh.hpp"
 
 namespace drape::audit {
@@ -132,12 +134,14 @@ std::vector<Box> boxes_around(const std::vector<std::array<int, count>>& feature
 /// @throws std::invalid_argument if a triangle has an invalid vertex
 void check_vertices(const std::vector<Triangle>& triangles, const Vertices& x);
 
-/// Returns true if two features of one mesh share a vertex.
+/// Returns true if two features of one mesh share a vertex, or have vertices that a seam ties together.
 template <std::size_t first, std::size_t second>
-bool share_vertex(const std::array<int, first>& a, const std::array<int, second>& b) {
+bool share_vertex(const Topology& mesh, const std::array<int, first>& a, const std::array<int, second>& b) {
   for (const int v : a) {
     for (const int w : b) {
       if (v == w) return true;
+      if (!mesh.sewn.empty() && std::ranges::binary_search(mesh.sewn, Edge{std::min(v, w), std::max(v, w)}))
+        return true;
     }
   }
   return false;

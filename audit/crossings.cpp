@@ -26,7 +26,7 @@ void add_crossings(const Surface& edges, Owner edge_owner, const Surface& triang
   edge_tree.for_pairs_with(triangle_tree, [&](int e, int t) {
     const Edge& edge = edges.topology.edges[static_cast<std::size_t>(e)];
     const Triangle& triangle = triangles.topology.triangles[static_cast<std::size_t>(t)];
-    if (one_mesh && share_vertex(edge, triangle)) return;
+    if (one_mesh && share_vertex(edges.topology, edge, triangle)) return;
     if (goes_through(
             {point(edges.x, edge[0]), point(edges.x, edge[1])},
             {point(triangles.x, triangle[0]), point(triangles.x, triangle[1]), point(triangles.x, triangle[2])})) {
@@ -201,14 +201,26 @@ std::vector<Inside> find_behind_plane(const Vertices& cloth, const Eigen::Vector
   return found;
 }
 
-Topology make_topology(std::vector<Triangle> triangles) {
+Topology make_topology(std::vector<Triangle> triangles, std::vector<Edge> sewn) {
   for (const auto& [a, b, c] : triangles) {
     if (std::min({a, b, c}) < 0 || a == b || b == c || c == a) {
       throw std::invalid_argument(fmt::format("a triangle needs three different vertices, found {} {} {}", a, b, c));
     }
   }
   std::vector<Edge> edges = unique_edges(triangles);
-  return {std::move(triangles), std::move(edges)};
+  return {std::move(triangles), std::move(edges), std::move(sewn)};
+}
+
+std::vector<Edge> sewn_vertices(const std::vector<Seam>& seams) {
+  std::vector<Edge> pairs;
+  for (const Seam& seam : seams) {
+    for (const SeamTie& tie : seam.ties) {
+      for (const int other : tie.edge) pairs.push_back({std::min(tie.vertex, other), std::max(tie.vertex, other)});
+    }
+  }
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
 }
 
 std::string describe(Owner owner, std::vector<int> vertices) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drape/sim/cloth.hpp"
 #include "drape/sim/mesh.hpp"
 
 namespace drape::audit {
@@ -13,10 +14,16 @@ namespace drape::audit {
 struct Topology {
   std::vector<Triangle> triangles;
   std::vector<Edge> edges;
+  std::vector<Edge> sewn = {};  ///< vertices that seams tie together, which count as common vertices; sorted
 };
 
-/// Extracts the edges. @throws std::invalid_argument if a triangle has a negative or a repeated vertex
-Topology make_topology(std::vector<Triangle> triangles);
+/// Extracts the edges.
+/// @param sewn see Topology, sorted
+/// @throws std::invalid_argument if a triangle has a negative or a repeated vertex
+Topology make_topology(std::vector<Triangle> triangles, std::vector<Edge> sewn = {});
+
+/// Returns the pairs of vertices that seams tie together, each in ascending order; sorted.
+std::vector<Edge> sewn_vertices(const std::vector<Seam>& seams);
 
 /// A mesh at one moment. Refers to its data.
 struct Surface {

@@ -189,7 +189,7 @@ std::size_t count_pairs(const std::vector<Crossing>& crossings, const Topology& 
 MotionAudit::MotionAudit(AuditedCloth cloth, const AuditLimits& limits)
     : cloth_(std::move(cloth)),
       limits_(limits),
-      topology_(std::make_unique<const Topology>(make_topology(cloth_.triangles))),
+      topology_(std::make_unique<const Topology>(make_topology(cloth_.triangles, cloth_.sewn))),
       stuck_(*topology_, cloth_.rest, cloth_.held, cloth_.down) {
   for (const Triangle& triangle : cloth_.triangles) {
     if (std::ranges::max(triangle) < cloth_.rest.rows()) continue;

@@ -102,6 +102,7 @@ struct AuditedCloth {
   std::vector<Triangle> triangles;
   Held held;
   Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();  ///< see StuckWatch
+  std::vector<Edge> sewn = {};                       ///< see Topology
 };
 
 /// A state of a motion.

@@ -338,7 +338,7 @@ Swept sweep(Owner owner, const SurfaceMotion& motion, const Eigen::RowVector3d& 
 void add_vertices_in_triangles(const Swept& a, const Swept& b, std::vector<Passage>& found) {
   a.vertices.for_pairs_with(b.triangles, [&](int v, int t) {
     const Triangle& triangle = b.topology.triangles[static_cast<std::size_t>(t)];
-    if (&a == &b && share_vertex(std::array{v}, triangle)) return;
+    if (&a == &b && share_vertex(a.topology, std::array{v}, triangle)) return;
     const auto meeting = vertex_meets_triangle(a.way(v), {b.way(triangle[0]), b.way(triangle[1]), b.way(triangle[2])});
     if (!meeting) return;
     found.push_back({Passage::Kind::vertex_triangle,
@@ -354,7 +354,7 @@ void add_edges(const Swept& a, const Swept& b, std::vector<Passage>& found) {
   const auto visit = [&](int i, int j) {
     const Edge& first = a.topology.edges[static_cast<std::size_t>(i)];
     const Edge& second = b.topology.edges[static_cast<std::size_t>(j)];
-    if (&a == &b && share_vertex(first, second)) return;
+    if (&a == &b && share_vertex(a.topology, first, second)) return;
     const auto meeting = edges_meet({a.way(first[0]), a.way(first[1])}, {b.way(second[0]), b.way(second[1])});
     if (!meeting) return;
     found.push_back({Passage::Kind::edge_edge,

@@ -41,6 +41,64 @@ Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffn
   return cloth;
 }
 
+namespace {
+
+/// Appends the rows of `more` to a matrix.
+template <class Matrix>
+void append_rows(const Matrix& more, Matrix& rows) {
+  const Eigen::Index before = rows.rows();
+  rows.conservativeResize(before + more.rows(), rows.cols());
+  rows.bottomRows(more.rows()) = more;
+}
+
+}  // namespace
+
+void append(const std::string& name, const Cloth& one, Cloth& all) {
+  const int first = all.vertex_count(), first_triangle = static_cast<int>(all.triangles.size());
+  all.pieces.push_back({.name = name,
+                        .first_vertex = first,
+                        .vertex_count = one.vertex_count(),
+                        .first_triangle = first_triangle,
+                        .triangle_count = static_cast<int>(one.triangles.size())});
+  append_rows(one.positions, all.positions);
+  append_rows(one.velocities, all.velocities);
+  append_rows(one.rest, all.rest);
+  append_rows(one.masses, all.masses);
+  for (Triangle triangle : one.triangles) {
+    for (int& vertex : triangle) vertex += first;
+    all.triangles.push_back(triangle);
+  }
+  for (Spring spring : one.springs) {
+    spring.i += first;
+    spring.j += first;
+    all.springs.push_back(spring);
+  }
+  for (const int pin : one.pins) all.pins.push_back(first + pin);
+}
+
+const ClothPiece* find_piece(const Cloth& cloth, std::string_view name) {
+  const auto found = std::ranges::find(cloth.pieces, name, &ClothPiece::name);
+  return found == cloth.pieces.end() ? nullptr : &*found;
+}
+
+std::vector<int> pieces_of_vertices(const Cloth& cloth) {
+  if (cloth.pieces.size() < 2) return {};
+  std::vector<int> numbers(static_cast<std::size_t>(cloth.vertex_count()), 0);
+  for (std::size_t k = 0; k < cloth.pieces.size(); ++k) {
+    const auto first = numbers.begin() + cloth.pieces[k].first_vertex;
+    std::fill_n(first, cloth.pieces[k].vertex_count, static_cast<int>(k));
+  }
+  return numbers;
+}
+
+Cloth only_piece(const Cloth& cloth, const ClothPiece& piece) {
+  Cloth part = cloth;
+  const auto first = cloth.triangles.begin() + piece.first_triangle;
+  part.triangles.assign(first, first + piece.triangle_count);
+  std::erase_if(part.springs, [&](const Spring& spring) { return !piece.has(spring.i); });
+  return part;
+}
+
 double size_of(const Cloth& cloth) {
   const Vertices& x = cloth.positions;
   double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).stableNorm();

@@ -38,6 +38,11 @@ void require_valid(const SimulationSettings& settings) {
     for (const int vertex : {spring.i, spring.j}) require_vertex("spring", vertex, vertices);
   }
   for (const int pin : cloth.pins) require_vertex("pin", pin, vertices);
+  for (const Seam& seam : cloth.seams) {
+    for (const SeamTie& tie : seam.ties) {
+      for (const int vertex : {tie.vertex, tie.edge[0], tie.edge[1]}) require_vertex("seam", vertex, vertices);
+    }
+  }
   if (std::ranges::adjacent_find(cloth.pins, std::greater_equal<>()) == cloth.pins.end()) return;
   throw UsageError("the pins must be ascending, each once");
 }

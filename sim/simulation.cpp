@@ -1,5 +1,6 @@
 #include "drape/sim/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -78,6 +79,7 @@ class Simulation::Motion {
   StepReport step();
   void restore(const Simulation::Checkpoint& checkpoint);
   Energies energies();
+  std::vector<Energies> piece_energies();
   [[nodiscard]] double time() const { return static_cast<double>(state.step) * settings.step; }
   /// Returns true if a step checks for a stop after its start.
   [[nodiscard]] bool may_be_interrupted() const {
@@ -159,6 +161,32 @@ Energies Simulation::Motion::energies() {
           .elastic = elastic};
 }
 
+std::vector<Energies> Simulation::Motion::piece_energies() {
+  const Cloth& cloth = settings.cloth;
+  std::vector<Energies> all;
+  for (const ClothPiece& piece : cloth.pieces) {
+    Energies& one = all.emplace_back();
+    for (int i = piece.first_vertex; i < piece.first_vertex + piece.vertex_count; ++i) {
+      one.kinetic += cloth.masses[i] / 2 * state.v.row(i).squaredNorm();
+      one.gravity -= cloth.masses[i] * state.x.row(i).dot(system->gravity);
+    }
+    for (const Spring& s : system->springs) {
+      if (!piece.has(s.i)) continue;
+      const double longer = (state.x.row(s.i) - state.x.row(s.j)).norm() - s.rest_length;
+      one.elastic += s.stiffness / 2 * longer * longer;
+    }
+  }
+  ignored.setZero(state.x.rows(), 3);
+  for (const auto& energy : system->energies) {
+    const bool whole = energy->piece < 0;
+    if (whole && all.size() != 1) continue;
+    if (!all.empty())
+      all[static_cast<std::size_t>(std::max(0, energy->piece))].elastic +=
+          energy->add_gradient(state.x, time(), ignored);
+  }
+  return all;
+}
+
 Simulation::Simulation(SimulationSettings settings, Timing timing, const Stop& stop)
     : motion_(std::make_unique<Motion>(std::move(settings), timing, stop)) {}
 Simulation::~Simulation() = default;
@@ -186,6 +214,7 @@ const SimulationSettings& Simulation::settings() const { return motion_->setting
 const std::vector<Spring>& Simulation::springs() const { return motion_->system->springs; }
 const std::vector<double>& Simulation::effect_seconds() const { return motion_->effect_seconds; }
 Energies Simulation::energies() const { return motion_->energies(); }
+std::vector<Energies> Simulation::piece_energies() const { return motion_->piece_energies(); }
 bool Simulation::only_loses_energy() const {
   const System& system = *motion_->system;
   const bool touches = !system.filters.empty() || !system.contacts.empty();

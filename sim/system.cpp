@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/contact/impulse_contact.hpp"
+#include "sim/contact/seam_contacts.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/schemes/sdirk2.hpp"
 #include "sim/step_dissipation.hpp"
@@ -31,7 +32,7 @@ std::vector<Collider> System::colliders_at(double at) const {
 
 bool System::only_loses_energy() const {
   const bool rests = std::ranges::all_of(colliders, [](const auto& collider) { return collider->rests(); });
-  if (!rests || !pin_motions.empty() || !fields.empty()) return false;
+  if (!rests || !pin_motions.empty() || !fields.empty() || !cloth.seams.empty()) return false;
   const State at_rest{.x = cloth.positions, .v = Vertices::Zero(cloth.vertex_count(), 3), .step = 0};
   Vertices push = at_rest.v;
   for (const auto& force : forces) {
@@ -51,9 +52,17 @@ void System::filter(State& state, Vertices& way) const {
     changed = false;
     for (const auto& filter : filters) changed = filter->adjust(state.x, time(state.step), step, way) || changed;
   }
+  bool first = true;
   for (const auto& filter : filters) {
     filter->note(!changed);
-    if (const Restraint* restraint = filter->restraint()) state.restraint = *restraint;
+    const Restraint* restraint = filter->restraint();
+    if (restraint == nullptr) continue;
+    if (std::exchange(first, false)) {
+      state.restraint = *restraint;
+    } else {  // of other cloths
+      state.restraint.acceleration += restraint->acceleration;
+      state.restraint.tensions += restraint->tensions;
+    }
   }
 }
 
@@ -116,6 +125,7 @@ void install_effects(const SimulationSettings& settings, std::vector<double>* ef
   }
   add_drag(settings.integrator, system);
   add_dissipations(settings.integrator, system);
+  if (!system.cloth.seams.empty()) system.contacts.push_back(std::make_shared<SeamContacts>(system.cloth));
   if (system.contacts.empty()) return;
   // Explicit steps have no other contact. Implicit steps need this filter to keep their contacts after other filters.
   const bool explicitly = is_explicit(settings.integrator.method);

@@ -10,6 +10,7 @@
 #include "drape/sim/settings.hpp"
 #include "drape/sim/state.hpp"
 #include "drape/sim/tracks.hpp"
+#include "sim/bending/curvature.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/parallel/threads.hpp"
 
@@ -94,6 +95,8 @@ struct EnergyHessian {
 
 /// An energy E(x, t) ≥ 0 of the cloth other than that of its springs.
 struct Energy {
+  int piece = -1;  ///< number of the only cloth that has it, see Cloth::pieces; −1: any
+
   virtual ~Energy() = default;
   /// Adds ∇E to the gradient, n×3 [N]; returns E [J], in one pass.
   virtual double add_gradient(const Vertices& x, double time, Vertices& gradient) const = 0;
@@ -181,8 +184,8 @@ struct System {
   std::vector<std::shared_ptr<ContactSource>> contacts;  ///< everything that the cloth can touch
   std::vector<PinMotion> pin_motions;                    ///< of pins that move
   std::vector<PinRelease> pin_releases;  ///< at each release, a simulation makes a new system without these pins
-  double bending_rigidity = 0;           ///< of the bending energy, for dashpots [N·m]
-  double damping_time = 0;               ///< relaxation time of the dashpots [s]
+  std::vector<CurvatureElement> bending_elements;   ///< of all bending energies, for dashpots
+  double damping_time = 0;                          ///< relaxation time of the dashpots [s]
   std::vector<std::shared_ptr<Dashpots>> dashpots;  ///< of internal damping
   std::vector<StepDissipation*> dissipations;       ///< energies for the dashpots in an implicit step
 

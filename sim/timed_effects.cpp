@@ -58,7 +58,7 @@ struct TimedHessian final : Timed<EnergyHessian> {
 };
 
 struct TimedEnergy final : Timed<Energy> {
-  using Timed::Timed;
+  TimedEnergy(std::shared_ptr<Energy> timed, double& total) : Timed(std::move(timed), total) { piece = inner->piece; }
   double add_gradient(const Vertices& x, double time, Vertices& gradient) const override {
     const Stopwatch watch(seconds);
     return inner->add_gradient(x, time, gradient);

@@ -327,7 +327,8 @@ audit::AuditedCloth audited_cloth(const Scene& scene, const System& system, cons
   return {.rest = cloth.rest,
           .triangles = cloth.triangles,
           .held = {.known = known, .vertices = options.held.value_or(cloth.pins)},
-          .down = gravity.isZero(0) ? gravity : Eigen::Vector3d(gravity.normalized())};
+          .down = gravity.isZero(0) ? gravity : Eigen::Vector3d(gravity.normalized()),
+          .sewn = audit::sewn_vertices(cloth.seams)};
 }
 
 constexpr double usual_stretch = 1.1;  // limit for the edges of an imported motion
@@ -335,10 +336,15 @@ constexpr double usual_stretch = 1.1;  // limit for the edges of an imported mot
 audit::AuditLimits limits_of(const Scene& scene, const AuditOptions& options, bool imported) {
   audit::AuditLimits limits{.depth = options.depth};
   if (imported) limits.stretch = usual_stretch;
+  std::size_t limited = 0;  // cloths
+  double largest = 0;
   for (const Effect& effect : scene.simulation.effects) {
     const auto* limit = effect.as<StrainLimit>();
-    if (limit != nullptr) limits.stretch = limit->max_stretch * (1 + limit->tolerance);
+    if (limit == nullptr) continue;
+    limited += limit->cloth.empty() ? std::max<std::size_t>(1, scene.simulation.cloth.pieces.size()) : 1;
+    largest = std::max(largest, limit->max_stretch * (1 + limit->tolerance));
   }
+  if (limited > 0 && limited >= scene.simulation.cloth.pieces.size()) limits.stretch = largest;
   limits.stretch = options.stretch.value_or(limits.stretch);
   return limits;
 }

@@ -94,6 +94,7 @@ double closest_features(const Cloth& cloth, double most) {
 
 MonotoneSheet::MonotoneSheet(const Cloth& cloth, double distance) {
   if (cloth.triangles.empty()) return;
+  if (cloth.pieces.size() > 1) return;
   const auto points = flat_shape(cloth);
   if (!points || !is_convex(cloth.triangles, *points)) return;
   least_ = margin * distance / closest_features(cloth, reach * distance);

@@ -25,7 +25,8 @@ struct ContactKey {
 
 /// Two features that must stay a distance apart; one or both belong to the cloth. With the relative position
 ///   d(x) = Σ weights[i]·x[vertices[i]] + offset
-/// the contact is the constraint n·d(x) ≥ distance, linear in x. Its force acts on the cloth as weights[i]·force.
+/// the contact is the constraint n·d(x) ≥ distance, linear in x. Its force acts on the cloth as weights[i]·force. A
+/// rope of a seam is such a constraint with a negative distance, and a closed seam one on all of d.
 struct ContactConstraint {
   ContactKey key;
   int count = 1;                       ///< number of cloth vertices, 1 to 4
@@ -40,6 +41,7 @@ struct ContactConstraint {
   double restitution = 0;              ///< ratio of separation to impact speed
   double beyond = 0;                   ///< additional gap at the end of the step due to a bounce [m]
   bool collides = false;               ///< true if the features pass through each other on straight paths
+  bool welds = false;                  ///< true: d(x) = 0 instead, at the end of the step and in every direction
   double radius = -1;                  ///< limit of the friction force, µ times a normal force [N]; negative: unknown
   double stiffness = 0;                ///< penalty κ of the augmented Lagrangian [N/m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< multiplier: the force on d [N]

@@ -13,6 +13,8 @@ namespace {
 using Index = std::size_t;
 
 constexpr double relative_stiffness = 10;     // κ, in multiples of the stiffness of a contact's vertices
+constexpr double weld_stiffness = 100;        // κ of a weld, likewise; it never opens
+constexpr double most_open = 4e-7;            // largest gap of a weld [m]
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
 constexpr double shortest_move = 1e-6;        // least step length along a direction
 constexpr double share_of_change = 0.01;      // tolerance, relative to the largest displacement by forces
@@ -75,7 +77,7 @@ bool ContactSolver::is_blocked(const Vertices& target) {
   find(target, true);
   return std::ranges::any_of(contacts_, [&](const ContactConstraint& contact) {
     const double lies = (1 + begins_on) * contact.distance;
-    return contact.collides || contact.place(target).dot(contact.normal) < contact.distance ||
+    return contact.collides || contact.welds || contact.place(target).dot(contact.normal) < contact.distance ||
            contact.start.dot(contact.normal) < lies;
   });
 }
@@ -128,7 +130,7 @@ void ContactSolver::set_stiffness(const ContactProblem& problem) {
       if (free_[static_cast<Index>(vertex)] == 0) continue;
       compliance += contact.weights[i] * contact.weights[i] / problem.stiffness(vertex, contact.normal);
     }
-    contact.stiffness = relative_stiffness / compliance;
+    contact.stiffness = (contact.welds ? weld_stiffness : relative_stiffness) / compliance;
   }
 }
 
@@ -136,6 +138,14 @@ ContactSolver::Response ContactSolver::respond(const ContactConstraint& contact,
   const Eigen::Vector3d& n = contact.normal;
   const Eigen::Vector3d place = contact.place(x), slip = place - contact.start;
   const double k = contact.stiffness, before = contact.force.dot(n), radius = contact.radius;
+  if (contact.welds) {
+    const Eigen::Vector3d force = contact.force - k * place;
+    return {.force = force,
+            .stiffness = k * Eigen::Matrix3d::Identity(),
+            .energy = (force.squaredNorm() - contact.force.squaredNorm()) / (2 * k),
+            .residual = place.norm(),
+            .sticks = true};
+  }
   const double normal = std::max(0.0, before - k * (place.dot(n) - contact.distance - contact.beyond));
   Response response;
   response.force = normal * n;
@@ -173,12 +183,13 @@ void ContactSolver::find_radii(const Vertices& x, bool all) {
 ContactSolver::PointStatus ContactSolver::assess(const ContactProblem& problem, const Iterate& point) {
   gradient_ = point.gradient;
   responses_.resize(contacts_.size());
-  PointStatus now{.value = point.value, .residual = 0, .error = 0, .collides = false};
+  PointStatus now{.value = point.value, .residual = 0, .open = 0, .error = 0, .collides = false};
   for (Index k = 0; k < contacts_.size(); ++k) {
     responses_[k] = respond(contacts_[k], point.x);
     contacts_[k].scatter(-responses_[k].force, gradient_);
     now.value += responses_[k].energy;
     now.residual = std::max(now.residual, responses_[k].residual);
+    if (contacts_[k].welds) now.open = std::max(now.open, responses_[k].residual);
     now.collides = now.collides || contacts_[k].collides;
   }
   for (const int pin : system_.cloth.pins) gradient_.row(pin).setZero();
@@ -212,6 +223,10 @@ std::vector<HeldDirection> ContactSolver::held_directions(const std::vector<char
       if (stiffness < least_held * contact.stiffness) return;
       held.push_back({static_cast<int>(k), u, stiffness + contact.stiffness / relative_stiffness});
     };
+    if (contact.welds) {
+      for (int axis = 0; axis < 3; ++axis) hold(Eigen::Vector3d::Unit(axis));
+      continue;
+    }
     hold(contact.normal);
     if (contact.radius <= 0) continue;
     Eigen::Vector3d first = response.force - response.force.dot(contact.normal) * contact.normal;
@@ -337,7 +352,7 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     const bool at_a_change = problem.exact() || accuracy.rule == StoppingRule::change;
     const bool balanced = by_gradient ? norm(system_.threads, gradient_) <= accuracy.tolerance
                                       : now.error <= tolerance || (settled && at_a_change);
-    report.converged = balanced && now.residual <= contact_share * tolerance && !now.collides;
+    report.converged = balanced && now.residual <= contact_share * tolerance && now.open <= most_open && !now.collides;
     if (report.converged || report.iterations >= std::min(most_iterations, most_useful) || !std::isfinite(now.value))
       break;
     const double before = std::exchange(steepness, norm(system_.threads, gradient_));
@@ -438,7 +453,7 @@ void ContactSolver::give_velocity(const ContactConstraint& contact, const Eigen:
 void ContactSolver::rebound(bool instantaneous, Vertices& v) const {
   for (const ContactConstraint& contact : contacts_) {
     const Eigen::Vector3d& n = contact.normal;
-    if (!(contact.force.dot(n) > 0)) continue;
+    if (contact.welds || !(contact.force.dot(n) > 0)) continue;
     const Eigen::Vector3d drift = contact.carried / flight_.h, slip = contact.gather(v) + drift;
     const double now = slip.dot(n);
     Bounce bounce = bounce_of(contact, flight_);

@@ -85,6 +85,7 @@ class ContactSolver {
   struct PointStatus {
     double value;     // of the augmented function [J]
     double residual;  // largest of all contacts [m]
+    double open;      // largest gap of a weld [m]
     double error;     // estimated, of the worst vertex [m]
     bool collides;    // on the straight path
   };

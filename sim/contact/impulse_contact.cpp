@@ -16,6 +16,12 @@ constexpr int most_held_rounds = 60;     // rounds after which all zones are joi
 constexpr double settled_share = 1e-3;   // convergence tolerance of a pass, as a fraction of the contact distance
 constexpr double near_share = 0.1;  // largest move of a solve without a new search, as a fraction of the least distance
 constexpr double least_correction = 1e-9;  // added to the tolerance of a pass [m]
+constexpr double closed_gap = 1e-7;        // largest gap of a weld [m]
+
+/// Returns the convergence tolerance of a contact in a pass [m].
+double tolerance_of(const ContactConstraint& contact) {
+  return settled_share * std::abs(contact.distance) + least_correction;
+}
 
 /// Returns a force across the normal, limited to `most`.
 Eigen::Vector3d limited(const Eigen::Vector3d& across, double most) {
@@ -65,8 +71,10 @@ bool ImpulseContact::adjust(const Vertices& x, double, double h, Vertices& v) {
 bool ImpulseContact::violated() const {
   return std::ranges::any_of(impulses_, [&](const Impulse& impulse) {
     const ContactConstraint& contact = impulse.contact;
-    const double missing = contact.distance + impulse.bounce.gap - contact.place(target_).dot(contact.normal);
-    return contact.collides || missing > settled_share * contact.distance + least_correction;
+    const Eigen::Vector3d place = contact.place(target_);
+    if (contact.welds) return place.norm() > closed_gap;
+    const double missing = contact.distance + impulse.bounce.gap - place.dot(contact.normal);
+    return contact.collides || missing > tolerance_of(contact);
   });
 }
 
@@ -115,7 +123,9 @@ void ImpulseContact::find() {
       // Keep the push, along the new normal.
       const Eigen::Vector3d &n = contact.normal, &force = known->contact.force;
       const double normal = force.dot(known->contact.normal);
-      impulse.contact.force = normal * n + limited(force - force.dot(n) * n, contact.friction * normal);
+      impulse.contact.force =
+          contact.welds ? known->contact.force
+                        : Eigen::Vector3d(normal * n + limited(force - force.dot(n) * n, contact.friction * normal));
     }
     impulse.bounce = bounce_of(contact, flight_);
     impulses_.push_back(impulse);
@@ -138,6 +148,7 @@ void ImpulseContact::apply_known() {
 
 Eigen::Vector3d ImpulseContact::change_of(const Impulse& impulse, double missing, const Eigen::Vector3d& slip) {
   const ContactConstraint& contact = impulse.contact;
+  if (contact.welds) return -slip / impulse.compliance;
   const Eigen::Vector3d& n = contact.normal;
   const double before = contact.force.dot(n);
   if (before == 0 && missing <= 0) return Eigen::Vector3d::Zero();
@@ -158,11 +169,12 @@ void ImpulseContact::solve() {
       ContactConstraint& contact = impulse.contact;
       const Eigen::Vector3d place = contact.place(target_);
       const double missing = contact.distance + impulse.bounce.gap - place.dot(contact.normal);
-      const Eigen::Vector3d change = change_of(impulse, missing, place - contact.start);
+      const Eigen::Vector3d slip = contact.welds ? place : Eigen::Vector3d(place - contact.start);
+      const Eigen::Vector3d change = change_of(impulse, missing, slip);
       if (change.isZero(0)) continue;
       contact.force += change;
       push(contact, change, target_);
-      if (impulse.compliance * change.norm() > settled_share * contact.distance + least_correction) moved = true;
+      if (impulse.compliance * change.norm() > tolerance_of(contact)) moved = true;
     }
     if (!moved) return;
   }
@@ -170,7 +182,9 @@ void ImpulseContact::solve() {
 
 bool ImpulseContact::stays_as_found() const {
   double least = std::numeric_limits<double>::infinity();
-  for (const Impulse& impulse : impulses_) least = std::min(least, impulse.contact.distance);
+  for (const Impulse& impulse : impulses_) {
+    if (impulse.contact.distance > 0) least = std::min(least, impulse.contact.distance);  // others are always known
+  }
   return (target_ - before_target_).rowwise().squaredNorm().maxCoeff() <= near_share * near_share * least * least;
 }
 
@@ -233,7 +247,7 @@ bool ImpulseContact::hold_with_obstacle(const ContactConstraint& contact, std::v
 void ImpulseContact::finish(Vertices& v) {
   for (const Impulse& impulse : impulses_) {
     const ContactConstraint& contact = impulse.contact;
-    if (contact.force.isZero(0)) continue;
+    if (contact.force.isZero(0) || contact.welds) continue;
     const Eigen::Vector3d& n = contact.normal;
     const Eigen::Vector3d drift = contact.carried / flight_.h;
     if (impulse.bounce.struck > 0) {
@@ -257,8 +271,7 @@ void ImpulseContact::finish(Vertices& v) {
       if (change.isZero(0)) continue;
       contact.force += change;
       push(contact, change, v);
-      if (flight_.h * impulse.compliance * change.norm() > settled_share * contact.distance + least_correction)
-        moved = true;
+      if (flight_.h * impulse.compliance * change.norm() > tolerance_of(contact)) moved = true;
     }
     if (!moved) return;
   }

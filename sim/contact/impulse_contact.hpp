@@ -51,7 +51,8 @@ class ImpulseContact final : public MotionFilter {
   void push(const ContactConstraint& contact, const Eigen::Vector3d& change, Vertices& to) const;
   /// Repeats passes over all contacts until they no longer move.
   void solve();
-  /// Returns the change of a contact's force, given its missing distance along the normal and its slip.
+  /// Returns the change of a contact's force, given its missing distance along the normal and its slip; of a weld,
+  /// given its gap as the slip.
   [[nodiscard]] static Eigen::Vector3d change_of(const Impulse& impulse, double missing, const Eigen::Vector3d& slip);
   [[nodiscard]] bool any_collides() const;
   /// Returns true if the last solve moved vertices too little to cause other contacts.

@@ -94,8 +94,14 @@ std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool h
   return Touch{near.weights, normal, false};
 }
 
-SelfContacts::SelfContacts(const ContactTerms& terms, const Cloth& cloth, const Threads& threads)
-    : terms_(terms), cloth_(cloth), candidates_(cloth, threads) {
+SelfContacts::SelfContacts(const ContactTerms& terms, const Cloth& cloth, const Threads& threads,
+                           Eigen::MatrixXd frictions)
+    : terms_(terms),
+      cloth_(cloth),
+      pieces_(pieces_of_vertices(cloth)),
+      frictions_(std::move(frictions)),
+      seams_(cloth, terms.distance),
+      candidates_(cloth, threads) {
   x_.resize(static_cast<Index>(cloth.vertex_count()));
   target_ = way_ = ahead_ = x_;
   if (terms.separate) entanglement_.emplace(std::vector<std::vector<Triangle>>{cloth.triangles}, x_.size(), cloth.pins);
@@ -137,9 +143,16 @@ void SelfContacts::find_candidates() {
 }
 
 double SelfContacts::rest_distance(const FeaturePair& pair) const {
+  const double across = seams_.across(pair);
+  if (!pieces_.empty() && pieces_[Index(pair.vertices[0])] != pieces_[Index(pair.vertices[3])]) return across;
   FourPoints rest;
   for (Index i = 0; i < 4; ++i) rest[i] = cloth_.rest.row(pair.vertices[i]).transpose();
-  return std::sqrt(nearest(pair.feature, rest).squared);
+  return std::min(across, std::sqrt(nearest(pair.feature, rest).squared));
+}
+
+double SelfContacts::friction(const FeaturePair& pair) const {
+  if (pieces_.empty() || frictions_.size() == 0) return terms_.friction;
+  return frictions_(pieces_[Index(pair.vertices[0])], pieces_[Index(pair.vertices[3])]);
 }
 
 void SelfContacts::find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
@@ -164,6 +177,7 @@ void SelfContacts::add(const FeaturePair& pair, int source, bool held, std::vect
   const FourPoints from = gather(x_, pair.vertices), to = gather(target_, pair.vertices);
   if (!held && kept_apart(pair.feature, from, to, terms_.distance)) return;
   const double before = std::sqrt(nearest(pair.feature, from).squared);
+  if (seams_.across(pair) == 0) return;
   const double kept = std::min(terms_.distance, rest_distance(pair));
   const double distance = distance_at_end(before, kept, duration_);
   const auto touch = find_touch({pair.feature, from, to, before}, distance, held);
@@ -171,7 +185,7 @@ void SelfContacts::add(const FeaturePair& pair, int source, bool held, std::vect
   ContactConstraint contact = make(pair.vertices, touch->weights, touch->normal);
   contact.key = key_of(pair, source);
   contact.distance = distance;
-  contact.friction = terms_.friction;
+  contact.friction = friction(pair);
   contact.collides = touch->collides;
   contacts.push_back(contact);
 }

@@ -14,6 +14,7 @@
 #include "sim/collision/monotone_sheet.hpp"
 #include "sim/collision/placed_mesh.hpp"
 #include "sim/contact/contact.hpp"
+#include "sim/contact/seam_distances.hpp"
 
 namespace drape {
 
@@ -109,10 +110,12 @@ struct Touch {
 /// Returns nothing for other features.
 std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool held);
 
-/// Contacts of a cloth with itself: vertex-triangle and edge-edge pairs that share no vertex.
+/// Contacts of a cloth with itself, and of its pieces with each other: vertex-triangle and edge-edge pairs that share
+/// no vertex. Features that a seam joins keep at most their distance along the cloth, across the seam.
 class SelfContacts final : public ContactSource {
  public:
-  SelfContacts(const ContactTerms& terms, const Cloth& cloth, const Threads& threads);
+  /// @param frictions coefficients between the cloth's pieces, symmetric; without several pieces it is not used
+  SelfContacts(const ContactTerms& terms, const Cloth& cloth, const Threads& threads, Eigen::MatrixXd frictions = {});
   void begin(const Vertices& x, double start, double end) override;
   void find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
             std::vector<ContactConstraint>& contacts) override;
@@ -128,11 +131,17 @@ class SelfContacts final : public ContactSource {
   void add(const FeaturePair& pair, int source, bool held, std::vector<ContactConstraint>& contacts) const;
   /// Appends the contacts that bring back features that have passed through a triangle.
   void bring_back(int source, std::vector<ContactConstraint>& contacts) const;
-  /// Returns the distance of two features in the rest shape [m].
+  /// Returns the distance of two features in the rest shape, across a seam if that is shorter; infinite between
+  /// different pieces without a seam [m].
   [[nodiscard]] double rest_distance(const FeaturePair& pair) const;
+  /// Returns the friction coefficient of two features.
+  [[nodiscard]] double friction(const FeaturePair& pair) const;
 
   ContactTerms terms_;
   const Cloth& cloth_;
+  std::vector<int> pieces_;  // number of each vertex's piece; empty for one piece
+  Eigen::MatrixXd frictions_;
+  SeamDistances seams_;
   std::optional<MonotoneSheet> sheet_;        // made by the first step: many systems are only asked what they touch
   CollisionCandidates candidates_;            // for `steps_ahead_` steps at constant velocities
   std::optional<Entanglement> entanglement_;  // at the start of the step, if it is to be separated

@@ -2,6 +2,7 @@
 
 #include "core/keys.hpp"
 #include "sim/bending/bending_energy.hpp"
+#include "sim/effects/of_cloth.hpp"
 
 namespace drape {
 
@@ -13,25 +14,30 @@ void Bending::describe(Keys& keys) {
   keys.add("cross_stiffness", &cross_stiffness, "N/m",
            "Stiffness of \"cross\" springs between the two vertices opposite each inner edge.")
       .above(0);
+  describe_cloth(keys, cloth);
 }
 
-void Bending::check(const SimulationSettings&, const ProblemSink& problem) const {
+void Bending::check(const SimulationSettings& settings, const ProblemSink& problem) const {
+  check_cloth(cloth, settings, problem);
+  check_acts_alone(*this, settings, problem);
   if (!rigidity && !cross_stiffness) {
     problem("", "expected 'rigidity', 'cross_stiffness' or both; with neither, nothing resists bending");
   }
 }
 
 void Bending::install(System& system) const {
-  if (cross_stiffness) {
-    const std::vector<Spring> springs = cross_springs(system.cloth, *cross_stiffness);
-    system.springs.insert(system.springs.end(), springs.begin(), springs.end());
-  }
-  if (rigidity) {
-    system.bending_rigidity += *rigidity;
-    const auto elements = curvature_elements(system.cloth, *rigidity);
-    if (!elements.empty())
-      system.energies.push_back(std::make_unique<BendingEnergy>(elements, system.cloth.vertex_count(), system.threads));
-  }
+  for_cloths(system.cloth, cloth, [&](const Cloth& one, int piece) {
+    if (cross_stiffness) {
+      const std::vector<Spring> springs = cross_springs(one, *cross_stiffness);
+      system.springs.insert(system.springs.end(), springs.begin(), springs.end());
+    }
+    if (!rigidity) return;
+    const auto elements = curvature_elements(one, *rigidity);
+    if (elements.empty()) return;
+    system.bending_elements.insert(system.bending_elements.end(), elements.begin(), elements.end());
+    system.energies.push_back(std::make_unique<BendingEnergy>(elements, one.vertex_count(), system.threads));
+    system.energies.back()->piece = piece;
+  });
 }
 
 }  // namespace drape

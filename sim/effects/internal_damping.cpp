@@ -18,9 +18,8 @@ void InternalDamping::install(System& system) const {
   if (!system.springs.empty()) {
     system.dashpots.push_back(std::make_shared<SpringDashpots>(system.springs, relaxation_time, count, system.threads));
   }
-  if (system.bending_rigidity > 0) {
-    const auto elements = curvature_elements(system.cloth, system.bending_rigidity);
-    if (!elements.empty()) system.dashpots.push_back(std::make_shared<BendingDashpots>(elements, relaxation_time));
+  if (!system.bending_elements.empty()) {
+    system.dashpots.push_back(std::make_shared<BendingDashpots>(system.bending_elements, relaxation_time));
   }
 }
 

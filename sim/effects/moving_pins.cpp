@@ -8,6 +8,7 @@
 
 #include "core/keys.hpp"
 #include "drape/sim/settings.hpp"
+#include "sim/effects/of_cloth.hpp"
 #include "sim/mesh_anchors.hpp"
 #include "sim/system.hpp"
 
@@ -43,12 +44,14 @@ void MovingPins::describe(Keys& keys) {
   keys.add("release", &release, "s",
            "Time at which they are released, with the velocity they have then. Default: never.")
       .at_least(0);
+  keys.add("cloth", &cloth, "", "The name of the cloth that has these pins. Needed if there are several.");
 }
 
 void MovingPins::check(const SimulationSettings& settings, const ProblemSink& problem) const {
-  const Cloth& cloth = settings.cloth;
+  check_cloth(cloth, settings, problem);
+  const Cloth& all = settings.cloth;
   for (const int vertex : pins) {
-    if (std::ranges::binary_search(cloth.pins, vertex)) continue;
+    if (std::ranges::binary_search(all.pins, vertex)) continue;
     problem("pins", fmt::format("vertex {} is not pinned; add it to [cloth] pins", vertex));
     break;
   }
@@ -64,7 +67,7 @@ void MovingPins::check(const SimulationSettings& settings, const ProblemSink& pr
   }
   if (follow && !pins.empty()) {
     try {
-      static_cast<void>(motion(cloth));
+      static_cast<void>(motion(all));
       if (follow->samples.empty() && !release) {
         problem("follow",
                 "the mesh does not move, so the pins would stay where they are, as they do without this table");
@@ -79,7 +82,7 @@ void MovingPins::check(const SimulationSettings& settings, const ProblemSink& pr
     if (moving != nullptr) check_overlap(*moving, problem);
   }
   if (pins.empty() || keyframes.empty() || keyframes.front().time > 0) return;
-  const double jump = (keyframes.front().value - start(cloth)).norm();
+  const double jump = (keyframes.front().value - start(all)).norm();
   if (jump > largest_jump) {
     problem("keyframes", fmt::format("the pins start at their place in the cloth, and the keyframe at 0 s is {:.3g} m "
                                      "away from it: give it a later time",
@@ -108,29 +111,29 @@ void MovingPins::install(System& system) const {
   }
 }
 
-Eigen::Vector3d MovingPins::middle(const Cloth& cloth) const {
+Eigen::Vector3d MovingPins::middle(const Cloth& all) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const int vertex : pins) sum += cloth.positions.row(vertex).transpose();
+  for (const int vertex : pins) sum += all.positions.row(vertex).transpose();
   return sum / static_cast<double>(pins.size());
 }
 
-Eigen::Vector3d MovingPins::start(const Cloth& cloth) const {
-  return path == Path::offset ? Eigen::Vector3d::Zero() : middle(cloth);
+Eigen::Vector3d MovingPins::start(const Cloth& all) const {
+  return path == Path::offset ? Eigen::Vector3d::Zero() : middle(all);
 }
 
-PinMotion MovingPins::motion(const Cloth& cloth) const {
-  PinMotion motion{.vertices = pins, .base = cloth.positions(pins, Eigen::all)};
+PinMotion MovingPins::motion(const Cloth& all) const {
+  PinMotion motion{.vertices = pins, .base = all.positions(pins, Eigen::all)};
   if (follow) {
     motion.anchors = std::make_shared<MeshAnchors>(*follow, motion.base, 0);
     return motion;
   }
   const bool to_places = path == Path::position && !keyframes.empty();
-  const Eigen::Vector3d from = to_places ? middle(cloth) : Eigen::Vector3d::Zero();
+  const Eigen::Vector3d from = to_places ? middle(all) : Eigen::Vector3d::Zero();
   motion.path = Keyframes(starting_at(keyframes, from), interpolation);
-  if (to_places) motion.base.rowwise() -= middle(cloth).transpose();
+  if (to_places) motion.base.rowwise() -= middle(all).transpose();
   if (turns.empty()) return motion;
   motion.turn = Keyframes(starting_at(turns, Eigen::Vector3d::Zero()), interpolation);
-  motion.middle = to_places ? Eigen::Vector3d::Zero() : middle(cloth);
+  motion.middle = to_places ? Eigen::Vector3d::Zero() : middle(all);
   return motion;
 }
 

@@ -1,11 +1,13 @@
 #include "drape/sim/effects/self_collision.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "core/keys.hpp"
 #include "drape/sim/settings.hpp"
 #include "sim/contact/mesh_contacts.hpp"
 #include "sim/effects/effect_keys.hpp"
+#include "sim/effects/of_cloth.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -14,11 +16,25 @@ void SelfCollision::describe(Keys& keys) {
   keys.add("thickness", &thickness, "m", "Distance kept between layers of the cloth.").above(0);
   describe_friction(keys, friction);
   describe_overlap(keys, allow_overlap);
+  keys.add("contact", CustomValue{"[[cloth, cloth, { friction = number }], …]", &contact}, "",
+           "Friction between two named cloths, instead of `friction`. A name given twice: of a cloth with itself.");
   keys.replace("repulsion", "layers that are too near part at 20 times what is missing per second: omit it");
   keys.replace("iterations", "contact is solved for until it holds: omit it");
 }
 
 void SelfCollision::check(const SimulationSettings& settings, const ProblemSink& problem) const {
+  std::vector<std::array<std::string, 2>> known;
+  for (const ClothFriction& pair : contact) {
+    for (const std::string& name : pair.cloths) {
+      check_cloth(name, settings, [&](std::string_view, const std::string& text) { problem("contact", text); });
+    }
+    auto ordered = pair.cloths;
+    std::ranges::sort(ordered);
+    if (std::ranges::find(known, ordered) != known.end()) {
+      problem("contact", fmt::format("'{}' and '{}' are given twice", pair.cloths[0], pair.cloths[1]));
+    }
+    known.push_back(ordered);
+  }
   const Vertices& x = settings.cloth.positions;
   const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
   // All features would touch each other, and the time would grow with the square of the mesh size.
@@ -29,8 +45,19 @@ void SelfCollision::check(const SimulationSettings& settings, const ProblemSink&
 }
 
 void SelfCollision::install(System& system) const {
-  const ContactTerms terms{.distance = thickness, .friction = friction, .separate = allow_overlap};
-  system.contacts.push_back(std::make_unique<SelfContacts>(terms, system.cloth, system.threads));
+  ContactTerms terms{.distance = thickness, .friction = friction, .separate = allow_overlap};
+  const std::vector<ClothPiece>& pieces = system.cloth.pieces;
+  const auto count = static_cast<Eigen::Index>(pieces.size());
+  Eigen::MatrixXd frictions = Eigen::MatrixXd::Constant(count, count, friction);
+  for (const ClothFriction& pair : contact) {
+    const auto number = [&](const std::string& name) {
+      return std::ranges::find(pieces, name, &ClothPiece::name) - pieces.begin();
+    };
+    const Eigen::Index i = number(pair.cloths[0]), j = number(pair.cloths[1]);
+    frictions(i, j) = frictions(j, i) = pair.friction;
+  }
+  if (count == 1) terms.friction = frictions(0, 0);
+  system.contacts.push_back(std::make_unique<SelfContacts>(terms, system.cloth, system.threads, frictions));
 }
 
 }  // namespace drape

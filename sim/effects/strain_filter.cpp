@@ -153,8 +153,10 @@ StrainFilter::StrainFilter(const StrainLimit& limits, const Cloth& cloth)
       springs_at_(change_.size()) {
   for (const int pin : cloth.pins) weight_[pin] = 0;
   std::vector<Index> springs;
+  const ClothPiece* const piece = find_piece(cloth, limits.cloth);
   for (Index k = 0; k < cloth.springs.size(); ++k) {
     const Spring& s = cloth.springs[k];
+    if (piece != nullptr && !piece->has(s.i)) continue;
     if (weight_[s.i] + weight_[s.j] > 0 && s.rest_length > 0) springs.push_back(k);
   }
   for (const StringLink& link : lay_out_strings(cloth, springs)) {

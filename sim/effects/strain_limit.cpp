@@ -4,6 +4,7 @@
 
 #include "core/keys.hpp"
 #include "drape/sim/settings.hpp"
+#include "sim/effects/of_cloth.hpp"
 #include "sim/effects/strain_filter.hpp"
 #include "sim/system.hpp"
 
@@ -29,15 +30,20 @@ void StrainLimit::describe(Keys& keys) {
            "Largest number of sweeps over the edges in a step. A step that needs more counts as not converged.")
       .at_least(1);
   keys.add("tolerance", &tolerance, "", "Fraction by which a limit may be exceeded.").above(0);
+  describe_cloth(keys, cloth);
 }
 
 void StrainLimit::check(const SimulationSettings& settings, const ProblemSink& problem) const {
-  const Cloth& cloth = settings.cloth;
-  std::vector<bool> pinned(static_cast<std::size_t>(cloth.vertex_count()), false);
-  for (const int pin : cloth.pins) pinned[static_cast<std::size_t>(pin)] = true;
-  for (const Spring& s : cloth.springs) {
+  check_cloth(cloth, settings, problem);
+  check_acts_alone(*this, settings, problem);
+  const Cloth& all = settings.cloth;
+  const ClothPiece* piece = find_piece(all, cloth);
+  std::vector<bool> pinned(static_cast<std::size_t>(all.vertex_count()), false);
+  for (const int pin : all.pins) pinned[static_cast<std::size_t>(pin)] = true;
+  for (const Spring& s : all.springs) {
+    if (piece != nullptr && !piece->has(s.i)) continue;
     if (pinned[static_cast<std::size_t>(s.i)] && pinned[static_cast<std::size_t>(s.j)]) continue;
-    const double stretch = (cloth.positions.row(s.i) - cloth.positions.row(s.j)).norm() / s.rest_length;
+    const double stretch = (all.positions.row(s.i) - all.positions.row(s.j)).norm() / s.rest_length;
     const double slack = tolerance;
     if (stretch > max_stretch * (1 + slack)) {
       return problem("max_stretch", beyond("above", max_stretch, s, stretch));

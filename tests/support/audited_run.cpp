@@ -15,7 +15,8 @@ using namespace audit;
 /// Audits steps in order, and keeps the topologies of the cloth and the bodies.
 class Auditor {
  public:
-  Auditor(const std::vector<Triangle>& cloth, const std::vector<Collider>& colliders) : cloth_(make_topology(cloth)) {
+  Auditor(const Cloth& cloth, const std::vector<Collider>& colliders)
+      : cloth_(make_topology(cloth.triangles, sewn_vertices(cloth.seams))) {
     for (const Collider& collider : colliders) {
       const auto* body = std::get_if<MeshShape>(&collider);
       bodies_.push_back(body != nullptr ? make_topology(*body->triangles) : Topology{});
@@ -72,7 +73,7 @@ class Auditor {
 AuditedRun audit_run(const SimulationSettings& settings, std::int64_t steps) {
   Simulation simulation(settings);
   std::vector<Collider> before = simulation.colliders(0);
-  Auditor auditor(settings.cloth.triangles, before);
+  Auditor auditor(settings.cloth, before);
   std::vector<double> energies{simulation.energies().total()};
   for (std::int64_t step = 1; step <= steps; ++step) {
     const Vertices from = simulation.state().x;

@@ -6,12 +6,17 @@
 //   start.positions.col(2).array() += 1;  // a metre above where it was cut
 //   drape::Cloth cloth = drape::make_cloth(start, rest, 0.5, 100, {});
 //   drape::share_mass_by_area(0.3, cloth);  // 0.3 kg/m²
+//   drape::Cloth both;  // two cloths in one simulation
+//   drape::append("table cloth", cloth, both);
+//   drape::append("napkin", cloth, both);
 
 // Example:
 //   for (const drape::Fabric& fabric : drape::fabrics()) std::printf("%g kg/m2", fabric.density);
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,18 +31,57 @@ struct Spring {
   double stiffness = 0;    ///< [N/m]
 };
 
-/// The initial state of a cloth, constant during a simulation.
+/// One of several cloths of a simulation: its name, and its ranges of vertices and triangles.
+struct ClothPiece {
+  std::string name;
+  int first_vertex = 0, vertex_count = 0;
+  int first_triangle = 0, triangle_count = 0;
+
+  [[nodiscard]] bool has(int vertex) const { return vertex >= first_vertex && vertex < first_vertex + vertex_count; }
+};
+
+/// A vertex that a seam ties to a point of an edge of the other side.
+struct SeamTie {
+  int vertex = 0;
+  std::array<int, 2> edge = {};  ///< ends of that edge; twice the same vertex: tied to that vertex
+  double share = 0;              ///< position of the point on the edge, 0 at its first end to 1
+  double length = 0;             ///< distance of vertex and point at the start [m]
+};
+
+/// A seam that pulls its ties together: at the time t each is at most length·(1 − t/time) long, and from `time` on it
+/// is closed.
+struct Seam {
+  double time = 0;  ///< [s]
+  std::vector<SeamTie> ties = {};
+  std::array<std::vector<int>, 2> sides = {};  ///< vertices of both sides, in order along the seam
+};
+
+/// The initial state of a cloth, constant during a simulation. It may consist of several cloths.
 struct Cloth {
   Vertices positions;   ///< n×3 [m]
   Vertices velocities;  ///< n×3 [m/s]
   Vertices rest;        ///< n×3, unstrained shape [m]
   std::vector<Triangle> triangles;
   std::vector<Spring> springs;
-  Eigen::VectorXd masses;  ///< n, all positive [kg]
-  std::vector<int> pins;   ///< fixed vertices, ascending, without duplicates
+  Eigen::VectorXd masses;               ///< n, all positive [kg]
+  std::vector<int> pins;                ///< fixed vertices, ascending, without duplicates
+  std::vector<ClothPiece> pieces = {};  ///< the cloths that it consists of, in order; empty: one without a name
+  std::vector<Seam> seams = {};
 
   [[nodiscard]] int vertex_count() const { return static_cast<int>(positions.rows()); }
 };
+
+/// Appends a cloth to others: its vertices and triangles follow theirs. It becomes a piece with this name.
+void append(const std::string& name, const Cloth& one, Cloth& all);
+
+/// Returns the piece with a name, or null.
+const ClothPiece* find_piece(const Cloth& cloth, std::string_view name);
+
+/// Returns the number of each vertex's piece; empty for less than two pieces.
+std::vector<int> pieces_of_vertices(const Cloth& cloth);
+
+/// Returns a copy of the cloth with only the triangles and springs of one piece. It keeps all vertices.
+Cloth only_piece(const Cloth& cloth, const ClothPiece& piece);
 
 /// Returns the diagonal of the cloth's initial bounding box, or the largest rest length if longer [m].
 double size_of(const Cloth& cloth);

@@ -79,6 +79,9 @@ class Simulation {
   [[nodiscard]] const std::vector<double>& effect_seconds() const;
 
   [[nodiscard]] Energies energies() const;
+  /// Returns the energies of each of several cloths, in the order of Cloth::pieces. Effects on single cloths and
+  /// springs are counted; an elastic energy that belongs to several cloths is not.
+  [[nodiscard]] std::vector<Energies> piece_energies() const;
   /// Returns true if the scheme solves for contact and nothing adds energy, so that the total can only fall; see
   /// System::only_loses_energy().
   [[nodiscard]] bool only_loses_energy() const;

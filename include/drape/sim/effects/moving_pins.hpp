@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "drape/sim/body_shape.hpp"
@@ -36,6 +37,7 @@ struct MovingPins {
   std::optional<double> release = {};  ///< time of release, at the current velocity [s]; default: never
   std::vector<Keyframe> turns = {};    ///< angles about the fixed x axis, then y, then z, around the centroid [degrees]
   std::shared_ptr<const MeshMotion> follow = {};  ///< mesh that the pins follow instead, see MeshAnchors
+  std::string cloth = {};                         ///< name of the cloth that has them; empty: the only one
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;
@@ -43,10 +45,10 @@ struct MovingPins {
 
  private:
   /// Returns the value of a keyframe at 0 s.
-  [[nodiscard]] Eigen::Vector3d start(const Cloth& cloth) const;
+  [[nodiscard]] Eigen::Vector3d start(const Cloth& all) const;
   /// Returns the centroid of the pins in the cloth.
-  [[nodiscard]] Eigen::Vector3d middle(const Cloth& cloth) const;
-  [[nodiscard]] PinMotion motion(const Cloth& cloth) const;
+  [[nodiscard]] Eigen::Vector3d middle(const Cloth& all) const;
+  [[nodiscard]] PinMotion motion(const Cloth& all) const;
   void check_overlap(const MovingPins& other, const ProblemSink& problem) const;
 };
 
