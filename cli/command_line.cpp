@@ -424,8 +424,9 @@ std::vector<NamedKey> keys_named(std::string name) {
     }
   };
   ClothTable cloth;
+  SeamTable seam;
   Scene scene;
-  for (const TableType& table : scene_tables(cloth, scene)) look(table);
+  for (const TableType& table : scene_tables(cloth, seam, scene)) look(table);
   for (const EffectType& type : effect_types()) {
     Effect effect = type.make();
     look(effect_table(type, effect));

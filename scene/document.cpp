@@ -16,6 +16,7 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "scene/mesh/source.hpp"
+#include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
 
 namespace drape {
@@ -231,6 +232,8 @@ std::optional<std::size_t> item_number(std::string_view name) {
 /// Returns the item of an array that path[depth] picks.
 TomlValue& item(TomlArray& items, const std::vector<std::string>& path, std::size_t depth) {
   const std::string owner = joined(path, depth);
+  if (const TomlValue* named = find_item(items, path[depth]))
+    return items[static_cast<std::size_t>(named - items.data())];
   const std::optional<std::size_t> number = item_number(path[depth]);
   if (!number) throw UsageError(fmt::format("{} is an array of {}: say which, as in {}.0", owner, items.size(), owner));
   if (*number >= items.size()) {
@@ -275,8 +278,9 @@ void with_key(const std::string& table, const std::string& name, Use use) {
     }
   };
   ClothTable cloth;
+  SeamTable seam;
   Scene scene;
-  for (const TableType& type : scene_tables(cloth, scene)) look_in(type);
+  for (const TableType& type : scene_tables(cloth, seam, scene)) look_in(type);
   for (const EffectType& type : effect_types()) {
     Effect effect = type.make();
     look_in(effect_table(type, effect));

@@ -30,8 +30,7 @@ void refuse_physics(TomlTable& root, TomlTable& cloth, const TableType& own, Pro
     return true;
   });
   ClothTable unused;
-  Scene scene;
-  const std::deque<Key> computed = scene_tables(unused, scene).front().keys.all();
+  const std::deque<Key> computed = cloth_tables(unused).front().keys.all();
   std::erase_if(cloth.entries, [&](const TomlEntry& entry) {
     const bool is_own = std::ranges::find(own.keys.all(), entry.name, &Key::name) != own.keys.all().end();
     const bool is_computed = std::ranges::find(computed, entry.name, &Key::name) != computed.end();

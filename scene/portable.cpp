@@ -112,6 +112,10 @@ PortableScene make_portable(TomlValue document, const std::filesystem::path& fol
   FileNames names(folder, inputs, scene.files);
   names.replace(document);
   names.add_others();
+  for (const TomlEntry& list : document.as<TomlTable>()->entries) {  // before the first header
+    if (list.value.as<TomlArray>() == nullptr) continue;
+    scene.text += fmt::format("{} = {}\n", toml_quoted(list.name), toml_literal(list.value));
+  }
   for (const TomlEntry& table : document.as<TomlTable>()->entries) {
     if (table.name == "check") continue;
     if (const TomlTable* entries = table.value.as<TomlTable>()) {

@@ -16,9 +16,10 @@
 #include "drape/scene/document.hpp"
 #include "drape/sim/body_shape.hpp"
 #include "drape/sim/effects/bending.hpp"
+#include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/simulation.hpp"
 #include "scene/caption.hpp"
-#include "scene/cloth_reader.hpp"
+#include "scene/cloth_list.hpp"
 #include "scene/effects_reader.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
@@ -32,12 +33,22 @@ namespace {
 constexpr double most_steps = 1e9;
 constexpr double most_frames = 1e7;
 
-/// Returns the effect with the direction of the cloth's warp [degrees], if it depends on that.
-Effect along_warp(const Effect& effect, double warp) {
-  const Bending* bending = effect.as<Bending>();
-  if (bending == nullptr || !bending->rigidity) return effect;
+/// Returns the effect with the direction of the warp of the cloths that it acts on, if it depends on that.
+Effect along_warp(const ReadEffect& read, const ClothList& cloths, Problems& problems) {
+  const Bending* bending = read.effect.as<Bending>();
+  if (bending == nullptr || !bending->rigidity) return read.effect;
+  std::vector<double> warps;  // [degrees]
+  for (const ClothTable& table : cloths.tables) {
+    if (bending->cloth.empty() || bending->cloth == table.name) warps.push_back(table.warp);
+  }
+  if (warps.empty()) return read.effect;  // an unknown cloth, which the effect reports
+  if (!bending->rigidity->isotropic() && std::ranges::count(warps, warps.front()) != std::ssize(warps)) {
+    problems.add(place_of(*read.table, "rigidity"),
+                 "rigidity: the cloths have different warps: name one of them by 'cloth', and give the others a "
+                 "[[effects.bending]] of their own");
+  }
   Bending turned = *bending;
-  turned.rigidity->angle = warp * (std::numbers::pi / 180);
+  turned.rigidity->angle = warps.front() * (std::numbers::pi / 180);
   return turned;
 }
 
@@ -163,9 +174,25 @@ class Checks {
     if (!scene_.look.texture.empty() && scene_.uvs.empty()) {
       add("look", "texture", "texture: the mesh has no texture coordinates");
     }
+    for (std::size_t k = 0; k < scene_.look.cloths.size(); ++k) {
+      const std::vector<ClothPiece>& pieces = scene_.simulation.cloth.pieces;
+      const ClothLook& look = scene_.look.cloths[k];
+      if (look.place.empty() || has_coordinates(pieces[k])) continue;
+      const TomlValue* item = find_path(document_, "cloth." + pieces[k].name);
+      problems_.add(item == nullptr ? document_.place : place_of(*item, "texture"),
+                    "texture: the mesh has no texture coordinates");
+    }
   }
 
  private:
+  /// Returns true if any corner of a piece has texture coordinates other than zero.
+  [[nodiscard]] bool has_coordinates(const ClothPiece& piece) const {
+    if (scene_.uvs.empty()) return false;
+    const auto first = scene_.uvs.begin() + 3 * piece.first_triangle;
+    return std::any_of(first, first + 3 * piece.triangle_count,
+                       [](const std::array<float, 2>& uv) { return uv[0] != 0 || uv[1] != 0; });
+  }
+
   [[nodiscard]] bool length_is_overridden() const {
     return is_overridden({"time.duration", "time.step", "video.fps", "video.speed"});
   }
@@ -186,6 +213,23 @@ class Checks {
   const TomlValue& document_;
   Problems& problems_;
 };
+
+/// Adds the bending rigidity of a cloth's material, unless an effect acts on that cloth's bending.
+void add_bending_of_materials(const ClothList& cloths, Effects& effects) {
+  const std::size_t written = effects.size();
+  std::vector<Bending> added;
+  for (const ClothTable& table : cloths.tables) {
+    if (table.material == nullptr) continue;
+    bool bends = false;
+    for (std::size_t k = 0; k < written; ++k) {
+      const auto* bending = effects[k].as<Bending>();
+      bends = bends || (bending != nullptr && (bending->cloth.empty() || bending->cloth == table.name));
+    }
+    const std::string only = cloths.tables.size() > 1 ? table.name : "";
+    if (!bends) added.push_back({.rigidity = table.material->rigidity, .cloth = only});
+  }
+  for (const Bending& bending : added) effects.add(bending);
+}
 
 /// Chooses a method and writes its name to the scene and the document, so that a recorded motion names it.
 void name_method(Scene& scene, TomlValue& document, Problems& problems) {
@@ -214,7 +258,8 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   std::erase_if(document.as<TomlTable>()->entries, [](const TomlEntry& entry) { return entry.name == "sweep"; });
   Problems problems(file, overrides);
   apply_overrides(document, overrides, problems);
-  if (const TomlValue* motion = find_path(document, "cloth.motion")) {
+  const TomlValue* motion = find_path(document, "cloth.motion");
+  if (motion != nullptr && motion->as<TomlTable>() == nullptr) {  // a table: the cloth with this name
     problems.add(motion->place,
                  "motion: this scene plays a motion that is read, and a scene that is simulated is needed here; drape "
                  "render, compare, check, bless and audit take it");
@@ -228,28 +273,23 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   scene.name = file.stem().string();
   const std::filesystem::path folder = file.parent_path();
 
-  ClothTable cloth_table;
   TableReader reader(folder, problems);
-  reader.read_all(document, scene_tables(cloth_table, scene));
-  bool cloth_good = false;
-  SelectableMesh mesh;
-  std::vector<std::filesystem::path> cloth_inputs;
-  if (const TomlValue* value = find_path(document, "cloth")) {
-    if (auto cloth = read_cloth(cloth_table, *value, folder, problems)) {
-      scene.simulation.cloth = std::move(cloth->cloth);
-      scene.uvs = std::move(cloth->uvs);
-      mesh = std::move(cloth->mesh);
-      cloth_inputs = std::move(cloth->inputs);
-      for (const std::string& doubt : cloth->warnings) {
-        scene.warnings.push_back(problems.text(place_of(*value, "mesh")) + ": mesh: " + doubt);
-      }
-      reader.set_mesh(&mesh);
-      cloth_good = reader.good("cloth") && reader.good("cloth.transform");
-    }
+  {
+    ClothTable cloth;
+    SeamTable seam;
+    reader.read_all(document, scene_tables(cloth, seam, scene));
+  }
+  ClothList cloths = read_cloths(document, reader, folder, problems);
+  const bool cloth_good = cloths.good && reader.good("cloth") && reader.good("cloth.transform");
+  if (cloths.meshes.size() == cloths.tables.size()) {
+    scene.simulation.cloth = std::move(cloths.cloth);
+    scene.uvs = std::move(cloths.uvs);
+    scene.warnings = std::move(cloths.warnings);
+    reader.set_meshes(cloths.meshes);
   }
   const std::vector<ReadEffect> effects = read_effects(document, reader, problems);
   scene.inputs = reader.files();
-  scene.inputs.insert(scene.inputs.end(), cloth_inputs.begin(), cloth_inputs.end());
+  scene.inputs.insert(scene.inputs.end(), cloths.inputs.begin(), cloths.inputs.end());
   if (const TomlValue* look = find_path(document, "look")) {
     scene.texture_location = problems.text(place_of(*look, "texture"));
     if (!scene.look.texture.empty() && find_path(*look, "color") != nullptr) {
@@ -258,13 +298,18 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
     }
   }
 
-  for (const ReadEffect& read : effects) scene.simulation.effects.add(along_warp(read.effect, cloth_table.warp));
+  scene.look.cloths = cloth_looks(cloths, scene.simulation.cloth, document, problems, scene.look);
+  if (cloths.tables.size() == 1 && !cloths.tables.front().texture.empty()) {
+    scene.texture_location = problems.text(place_of(*find_path(document, "cloth"), "texture"));
+  }
+
+  for (const ReadEffect& read : effects) scene.simulation.effects.add(along_warp(read, cloths, problems));
   apply_quality(scene, [&](const char* key) {
     const TomlValue* value = find_path(document, key);
     return value != nullptr && value->place.override_number > 0;
   });
 
-  scene.fields = scene_fields(scene.name, scene_tables(cloth_table, scene), effects, document);
+  scene.fields = scene_fields(scene.name, named_tables(cloths, scene), effects, document);
   if (const TomlValue* caption = find_path(document, "caption")) {
     const Place place = place_of(*caption, "text");
     scene.caption.filled = fill_caption(scene.caption.text, scene.fields, place, problems);
@@ -294,9 +339,7 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   if (reader.good("time") && reader.good("integrator") && cloth_good) {
     check_effects(effects, scene.simulation, problems);
   }
-  if (cloth_table.material != nullptr && find_path(document, "effects.bending") == nullptr) {
-    scene.simulation.effects.add(Bending{.rigidity = cloth_table.material->rigidity});
-  }
+  add_bending_of_materials(cloths, scene.simulation.effects);
   if (reader.good("check")) checks.compared_frames();
   if (reader.good("check") && reader.good("time") && reader.good("video")) {
     checks.compared_frames_exist();
@@ -307,12 +350,12 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   scene.digest = digest(document, {"check", "caption", "overlay"});
   if (scene.simulation.integrator.method == Method::automatic) {
     name_method(scene, document, problems);
-    scene.fields = scene_fields(scene.name, scene_tables(cloth_table, scene), effects, document);
+    scene.fields = scene_fields(scene.name, named_tables(cloths, scene), effects, document);
     if (const TomlValue* caption = find_path(document, "caption")) {
       scene.caption.filled = fill_caption(scene.caption.text, scene.fields, place_of(*caption, "text"), problems);
     }
   }
-  scene.tables = physics_of_tables(scene_tables(cloth_table, scene), effects, folder);
+  scene.tables = physics_of_tables(named_tables(cloths, scene), effects, folder);
   scene.portable = make_portable(document, folder, scene.inputs);
   checks.stability();
   problems.throw_if_any<SceneConflict>();
@@ -350,9 +393,25 @@ bool pins_by_name(const TomlValue& value) {
   if (array != nullptr) return std::ranges::all_of(*array, pins_by_name);
   const auto is_name = [](const TomlValue& pin) { return pin.as<std::string>() != nullptr; };
   return table == nullptr || std::ranges::all_of(table->entries, [&](const TomlEntry& entry) {
-           const TomlArray* pins = entry.name == "pins" ? entry.value.as<TomlArray>() : nullptr;
+           const TomlArray* pins =
+               entry.name == "pins" || entry.name == "along" ? entry.value.as<TomlArray>() : nullptr;
            return pins != nullptr ? std::ranges::all_of(*pins, is_name) : pins_by_name(entry.value);
          });
+}
+
+void coarsen_cloth(TomlValue& cloth) {
+  constexpr std::int64_t enough = 400;  // cells
+  TomlTable* of_cloth = cloth.as<TomlTable>();
+  if (of_cloth == nullptr || of_cloth->find("rest") != nullptr) return;
+  TomlValue* mesh = of_cloth->find("mesh");
+  TomlTable* table = mesh == nullptr ? nullptr : mesh->as<TomlTable>();
+  TomlValue* grid = table == nullptr ? nullptr : table->find("grid");
+  TomlArray* counts = grid == nullptr || grid->place.override_number > 0 ? nullptr : grid->as<TomlArray>();
+  if (counts == nullptr || counts->size() != 2) return;
+  std::int64_t* const columns = (*counts)[0].as<std::int64_t>();
+  std::int64_t* const rows = (*counts)[1].as<std::int64_t>();
+  if (columns == nullptr || rows == nullptr || *columns <= 0 || *rows <= enough / *columns) return;
+  for (std::int64_t* count : {columns, rows}) *count = (*count + 1) / 2;
 }
 
 }  // namespace
@@ -364,20 +423,14 @@ bool says_draft(const TomlValue& document) {
 }
 
 void coarsen_grid(TomlValue& document) {
-  constexpr std::int64_t enough = 400;  // cells
   if (!pins_by_name(document)) return;
   TomlValue* cloth = document.as<TomlTable>()->find("cloth");
-  TomlTable* of_cloth = cloth == nullptr ? nullptr : cloth->as<TomlTable>();
-  if (of_cloth == nullptr || of_cloth->find("rest") != nullptr) return;
-  TomlValue* mesh = of_cloth->find("mesh");
-  TomlTable* table = mesh == nullptr ? nullptr : mesh->as<TomlTable>();
-  TomlValue* grid = table == nullptr ? nullptr : table->find("grid");
-  TomlArray* counts = grid == nullptr || grid->place.override_number > 0 ? nullptr : grid->as<TomlArray>();
-  if (counts == nullptr || counts->size() != 2) return;
-  std::int64_t* const columns = (*counts)[0].as<std::int64_t>();
-  std::int64_t* const rows = (*counts)[1].as<std::int64_t>();
-  if (columns == nullptr || rows == nullptr || *columns <= 0 || *rows <= enough / *columns) return;
-  for (std::int64_t* count : {columns, rows}) *count = (*count + 1) / 2;
+  if (cloth == nullptr) return;
+  if (TomlArray* several = cloth->as<TomlArray>()) {
+    for (TomlValue& one : *several) coarsen_cloth(one);
+  } else {
+    coarsen_cloth(*cloth);
+  }
 }
 
 void apply_quality(Scene& scene, const std::function<bool(const char*)>& given) {
@@ -410,6 +463,17 @@ std::string springs_text(const std::vector<Spring>& springs) {
   return fmt::format("{} springs ({})", springs.size(), hash.text());
 }
 
+std::string seam_text(const Seam& seam) {
+  Hash hash;
+  for (const SeamTie& tie : seam.ties) {
+    hash.add(&tie.vertex, sizeof tie.vertex);
+    hash.add(tie.edge.data(), sizeof tie.edge);
+    hash.add(&tie.share, sizeof tie.share);
+    hash.add(&tie.length, sizeof tie.length);
+  }
+  return fmt::format("{} ties ({}), closed at {} s", seam.ties.size(), hash.text(), seam.time);
+}
+
 /// Returns the hash of a file's content. A pipe can be read only once, so its name is returned.
 std::string file_text(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) return file.string();
@@ -436,11 +500,33 @@ std::string shape_text(const BodyShapeKey& key) {
   return fmt::format("{} {} {} {} {} {}", s.radius, s.height, s.top, s.width, s.depth, s.segments);
 }
 
+/// Describes the friction of pairs of cloths.
+std::string frictions_text(const std::vector<ClothFriction>& frictions) {
+  std::string text;
+  for (const auto& [cloths, friction] : frictions) text += fmt::format("{} {} {}; ", cloths[0], cloths[1], friction);
+  return text;
+}
+
+/// Returns true for a key of [cloth] that does not affect the motion.
+bool is_of_look(const std::string& key) { return key == "name" || key == "color" || key == "texture"; }
+
+/// Returns true for a key that selects cloths and has not been given.
+bool stands_for_all(const Key& key) {
+  if (key.name == "cloth") return std::get<std::string*>(key.target)->empty();
+  const auto* form = std::get_if<CustomValue>(&key.target);
+  auto* const* frictions = form == nullptr ? nullptr : std::any_cast<std::vector<ClothFriction>*>(&form->target);
+  return frictions != nullptr && (*frictions)->empty();
+}
+
 /// Returns text for a value in a custom form of an effect; nothing for other values.
 std::optional<std::string> own_text(const Key& key) {
   const auto* form = std::get_if<CustomValue>(&key.target);
   if (const auto* shape = form == nullptr ? nullptr : std::any_cast<BodyShapeKey>(&form->target)) {
     return shape_text(*shape);
+  }
+  if (form != nullptr) {
+    auto* const* frictions = std::any_cast<std::vector<ClothFriction>*>(&form->target);
+    if (frictions != nullptr) return frictions_text(**frictions);
   }
   auto* const* motion = form == nullptr ? nullptr : std::any_cast<std::shared_ptr<const MeshMotion>*>(&form->target);
   return motion == nullptr ? std::nullopt : std::optional(motion_text((*motion)->get()));
@@ -454,6 +540,7 @@ std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, 
   for (const TableType& table : tables) {
     if (!table.name.starts_with("cloth") && table.name != "time" && table.name != "integrator") continue;
     for (const Key& key : table.keys.all()) {
+      if (table.name.starts_with("cloth") && is_of_look(key.name)) continue;
       // The cloth itself records its mesh and the vertices selected from it.
       if (std::holds_alternative<CustomValue>(key.target) || (table.name == "time" && key.name == "duration")) continue;
       values.push_back({table.name + "." + key.name, value_text(key.target)});
@@ -468,6 +555,7 @@ std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, 
     for (const Key& key : keys.all()) {
       const auto* form = std::get_if<CustomValue>(&key.target);
       if (form != nullptr && std::any_cast<BodyShapeKey>(&form->target) != nullptr && own_text(key)->empty()) continue;
+      if (stands_for_all(key)) continue;
       if (const auto text = own_text(key)) {
         values.push_back({paths[i] + "." + key.name, *text});
         continue;
@@ -489,6 +577,14 @@ std::vector<SceneValue> physics_values(const Scene& scene) {
                                  cloth.triangles.size(), hash_of(cloth.triangles.data(), cloth.triangles.size()))},
       {"cloth.rest", springs_text(cloth.springs)},
       {"cloth.pins", fmt::format("{} ({})", cloth.pins.size(), hash_of(cloth.pins.data(), cloth.pins.size()))}};
+  for (const ClothPiece& piece : cloth.pieces) {
+    if (cloth.pieces.size() < 2) break;
+    values.push_back(
+        {"cloth." + piece.name, fmt::format("{} vertices from {}", piece.vertex_count, piece.first_vertex)});
+  }
+  for (std::size_t k = 0; k < cloth.seams.size(); ++k) {
+    values.push_back({fmt::format("seam.{}", k), seam_text(cloth.seams[k])});
+  }
   values.insert(values.end(), scene.tables.begin(), scene.tables.end());
   return values;
 }

@@ -22,6 +22,13 @@ struct SelectableMesh {
   MeshOptions options;
 };
 
+/// The mesh of one of several cloths, for selections of its vertices.
+struct PlacedSelection {
+  std::string name;      ///< of the cloth; may be empty if it is the only one
+  int first_vertex = 0;  ///< number of its first vertex among those of all cloths
+  SelectableMesh mesh;
+};
+
 /// Parses a direction such as "x-y+": one to three axes, each once and with a sign.
 std::optional<Eigen::Vector3d> parse_direction(std::string_view axes);
 

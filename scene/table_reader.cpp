@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <any>
+#include <charconv>
 #include <cmath>
 
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "drape/scene/scene.hpp"
 #include "drape/sim/body_shape.hpp"
+#include "drape/sim/effects/self_collision.hpp"
 #include "scene/cloth_reader.hpp"
 #include "scene/mesh_value.hpp"
 #include "scene/usd/motion.hpp"
@@ -40,18 +42,49 @@ std::vector<PixelRectangle> read_rectangles(const TomlValue& value, const std::s
   return rectangles;
 }
 
+/// Reads an item of [[cloth, cloth, { friction = number }], …]; returns nothing after a problem.
+std::optional<ClothFriction> read_friction(const TomlValue& item, const std::string& name, Problems& problems) {
+  const TomlArray* parts = item.as<TomlArray>();
+  const TomlTable* table = parts == nullptr || parts->size() != 3 ? nullptr : (*parts)[2].as<TomlTable>();
+  const TomlValue* value = table == nullptr ? nullptr : table->find("friction");
+  const std::string* first = value == nullptr ? nullptr : (*parts)[0].as<std::string>();
+  const std::string* second = value == nullptr ? nullptr : (*parts)[1].as<std::string>();
+  if (first == nullptr || second == nullptr || table->entries.size() != 1) {
+    problems.add(item.place, name + ": expected [\"cloth\", \"cloth\", { friction = number }]");
+    return std::nullopt;
+  }
+  const auto friction = read_number(*value, name + ".friction", {.minimum = 0}, problems);
+  if (!friction) return std::nullopt;
+  return ClothFriction{.cloths = {*first, *second}, .friction = *friction};
+}
+
+/// Reads the friction of pairs of cloths.
+std::vector<ClothFriction> read_frictions(const TomlValue& value, const std::string& name, Problems& problems) {
+  std::vector<ClothFriction> frictions;
+  const TomlArray* list = value.as<TomlArray>();
+  if (list == nullptr) {
+    problems.add(value.place, fmt::format("{}: expected [[cloth, cloth, {{ friction = number }}], …], found {}", name,
+                                          value.kind()));
+    return frictions;
+  }
+  for (const TomlValue& item : *list) {
+    if (auto friction = read_friction(item, name, problems)) frictions.push_back(*std::move(friction));
+  }
+  return frictions;
+}
+
 /// Reader of a key's value into its target, for every type of target.
 class KeyReader {
  public:
   /// @param table table that contains the key
   KeyReader(const TomlTable& table, const TomlValue& value, const Key& key, const std::filesystem::path& folder,
-            const SelectableMesh* mesh, Problems& problems, std::vector<std::filesystem::path>& files)
+            const std::deque<PlacedSelection>* meshes, Problems& problems, std::vector<std::filesystem::path>& files)
       : table_(table),
         value_(value),
         key_(key),
         range_{key.minimum, key.maximum, key.minimum_excluded},
         folder_(folder),
-        mesh_(mesh),
+        meshes_(meshes),
         problems_(problems),
         files_(files) {}
 
@@ -97,6 +130,8 @@ class KeyReader {
       read_moving_mesh(**moving);
     } else if (const auto* shape = std::any_cast<BodyShapeKey>(&form.target)) {
       read_shape(*shape);
+    } else if (auto* const* frictions = std::any_cast<std::vector<ClothFriction>*>(&form.target)) {
+      **frictions = read_frictions(value_, key_.name, problems_);
     } else if (auto* const* rectangles = std::any_cast<std::vector<PixelRectangle>*>(&form.target)) {
       **rectangles = read_rectangles(value_, key_.name, problems_);
     } else {
@@ -111,7 +146,14 @@ class KeyReader {
       if (!in_reach(std::optional(keyframe.value))) return;
     }
   }
-  void operator()(const VertexSelection& selection) const { *selection.vertices = read_pins(value_, mesh_, problems_); }
+  void operator()(const VertexSelection& selection) const {
+    const std::size_t before = problems_.count();
+    const PlacedSelection* mesh = selected_cloth();
+    if (problems_.count() != before) return;
+    *selection.vertices = read_pins(value_, mesh == nullptr ? nullptr : &mesh->mesh, problems_);
+    if (mesh == nullptr) return;
+    for (int& vertex : *selection.vertices) vertex += mesh->first_vertex;
+  }
 
   void operator()(const FormulaList& list) const {
     if (const auto formulas = read_formulas(value_, key_.name, list.problem, problems_)) *list.formulas = *formulas;
@@ -133,6 +175,25 @@ class KeyReader {
   template <class Target, class Result>
   static void assign(Target* target, const std::optional<Result>& result) {
     if (result) *target = *result;
+  }
+
+  /// Returns the cloth that `cloth` beside the key names, or the only one; null after a problem and without cloths.
+  [[nodiscard]] const PlacedSelection* selected_cloth() const {
+    if (meshes_ == nullptr || meshes_->empty()) return nullptr;
+    const TomlValue* name = table_.find("cloth");
+    const std::string* text = name == nullptr ? nullptr : name->as<std::string>();
+    if (name == nullptr && meshes_->size() == 1) return &meshes_->front();
+    if (name == nullptr) {
+      problems_.add(value_.place, key_.name + ": there are several cloths: say which one with 'cloth'");
+    }
+    if (text == nullptr) return nullptr;
+    const auto found = std::ranges::find(*meshes_, *text, &PlacedSelection::name);
+    if (found != meshes_->end()) return &*found;
+    std::vector<std::string> names;
+    for (const PlacedSelection& mesh : *meshes_) names.push_back(mesh.name);
+    problems_.add(name->place,
+                  fmt::format("unknown cloth '{}'{}", *text, did_you_mean(*text, names, "the cloths are")));
+    return nullptr;
   }
 
   static double magnitude(double number) { return std::abs(number); }
@@ -220,7 +281,7 @@ class KeyReader {
   const Key& key_;
   Range range_;
   const std::filesystem::path& folder_;
-  const SelectableMesh* mesh_;
+  const std::deque<PlacedSelection>* meshes_;
   Problems& problems_;
   std::vector<std::filesystem::path>& files_;
 };
@@ -247,6 +308,12 @@ std::vector<std::string> tables_within(const std::string& owner, const std::vect
   return names;
 }
 
+/// Returns true if a table or the one that contains it may be written several times.
+bool is_repeatable(const TableType& type, const std::vector<TableType>& types) {
+  const std::string owner = type.name.substr(0, type.name.find('.'));
+  return std::ranges::any_of(types, [&](const TableType& one) { return one.name == owner && one.repeatable; });
+}
+
 }  // namespace
 
 void TableReader::read_all(const TomlValue& document, const std::vector<TableType>& types) {
@@ -260,7 +327,7 @@ void TableReader::read_all(const TomlValue& document, const std::vector<TableTyp
   }
   for (const TableType& type : types) {
     if (const TomlValue* value = find_path(document, type.name)) {
-      read(*value, type, tables_within(type.name, types));
+      if (!is_repeatable(type, types)) read(*value, type, tables_within(type.name, types));
     } else if (type.required) {
       problems_.add(document.place, fmt::format("missing table [{}]", type.name));
     }
@@ -292,7 +359,7 @@ void TableReader::read_entries(const TomlTable& table, const TableType& type,
   for (const TomlEntry& entry : table.entries) {
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == entry.name; });
     if (key != keys.end()) {
-      std::visit(KeyReader(table, entry.value, *key, folder_, mesh_, problems_, files_), key->target);
+      std::visit(KeyReader(table, entry.value, *key, folder_, meshes_, problems_, files_), key->target);
     } else if (!contains(subtables, entry.name)) {
       report_unknown(entry, type, subtables);
     }
@@ -338,12 +405,28 @@ Place place_of(const TomlValue& table, std::string_view key) {
   return value == nullptr ? table.place : value->place;
 }
 
+const TomlValue* find_item(const TomlArray& items, std::string_view name) {
+  std::size_t number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data(), end, number);
+  if (error == std::errc() && stop == end) return number < items.size() ? &items[number] : nullptr;
+  const auto found = std::ranges::find_if(items, [&](const TomlValue& item) {
+    const TomlTable* table = item.as<TomlTable>();
+    const TomlValue* own = table == nullptr ? nullptr : table->find("name");
+    const std::string* text = own == nullptr ? nullptr : own->as<std::string>();
+    return text != nullptr && *text == name;
+  });
+  return found == items.end() ? nullptr : &*found;
+}
+
 const TomlValue* find_path(const TomlValue& document, std::string_view path) {
   const TomlValue* value = &document;
   while (value != nullptr && !path.empty()) {
     const std::size_t dot = std::min(path.find('.'), path.size());
     const TomlTable* table = value->as<TomlTable>();
-    value = table == nullptr ? nullptr : table->find(path.substr(0, dot));
+    const TomlArray* items = value->as<TomlArray>();
+    const std::string_view name = path.substr(0, dot);
+    value = items != nullptr ? find_item(*items, name) : table == nullptr ? nullptr : table->find(name);
     path.remove_prefix(std::min(dot + 1, path.size()));
   }
   return value;

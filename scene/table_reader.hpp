@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,11 +18,11 @@ class TableReader {
   /// @param problems must outlive this object
   TableReader(std::filesystem::path folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
 
-  /// Sets the mesh for selections of vertices. Before that, and with null, only their form is checked.
-  void set_mesh(const SelectableMesh* mesh) { mesh_ = mesh; }
+  /// Sets the meshes of all cloths for selections of vertices. Before that only the form of a selection is checked.
+  void set_meshes(const std::deque<PlacedSelection>& meshes) { meshes_ = &meshes; }
 
-  /// Reads the tables that the document has. Required ones must exist. Below the root, only a table `effects` is
-  /// allowed besides; it is not read here.
+  /// Reads the tables that the document has, except repeatable ones. Required ones must exist. Below the root, only a
+  /// table `effects` is allowed besides; it is not read here.
   void read_all(const TomlValue& document, const std::vector<TableType>& types);
 
   /// Reads one table, except its entries named in `subtables`.
@@ -44,7 +45,7 @@ class TableReader {
   [[nodiscard]] const Home* home_of(const std::string& key) const;
 
   std::filesystem::path folder_;
-  const SelectableMesh* mesh_ = nullptr;
+  const std::deque<PlacedSelection>* meshes_ = nullptr;
   Problems& problems_;
   std::vector<Home> homes_;  // every key of every table, to suggest the right table
   std::vector<std::filesystem::path> files_;
@@ -54,7 +55,11 @@ class TableReader {
 /// Returns the place of `key` in a table, or the start of the table if the key is absent.
 Place place_of(const TomlValue& table, std::string_view key);
 
-/// Returns the node with a dotted name, "cloth.transform", or null.
+/// Returns an item of an array, by its number from 0 or by its own `name`, or null.
+const TomlValue* find_item(const TomlArray& items, std::string_view name);
+
+/// Returns the node with a dotted name, "cloth.transform", or null. In an array a number from 0 selects an item, and so
+/// does the item's own `name`.
 const TomlValue* find_path(const TomlValue& document, std::string_view path);
 
 }  // namespace drape

@@ -10,6 +10,8 @@ namespace {
 
 Keys cloth_keys(ClothTable& cloth) {
   Keys keys;
+  keys.add("name", &cloth.name, "",
+           "Name of the cloth: letters, digits, `_` and `-`. Each of several `[[cloth]]` needs one.");
   keys.add("mesh", CustomValue{"mesh", &cloth.mesh}, "", "The shape that the cloth starts from.").must_be_given();
   keys.add("rest", CustomValue{"mesh", &cloth.rest}, "",
            "The shape whose edge lengths are the springs' rest lengths, with the same vertices and triangles as "
@@ -52,6 +54,8 @@ Keys cloth_keys(ClothTable& cloth) {
       .above(0);
   keys.add("pins", CustomValue{"pins", &cloth.pins}, "", "Vertices that do not move.");
   keys.add("velocity", &cloth.velocity, "m/s", "Initial velocity of every vertex that is not pinned.");
+  keys.add("color", &cloth.color, "", "Colour of this cloth. Default: that of [look].");
+  keys.add("texture", &cloth.texture, "", "Picture on this cloth, likewise. Needs a mesh with texture coordinates.");
   return keys;
 }
 
@@ -61,6 +65,21 @@ Keys transform_keys(ClothTable& cloth) {
            "Scales the mesh about its origin; applied first. Without `rest` the rest lengths scale too.");
   keys.add("rotate", &cloth.rotate, "degrees", "Rotates about the fixed x axis, then y, then z.");
   keys.add("translate", &cloth.translate, "m", "Moves the mesh; applied last.");
+  return keys;
+}
+
+Keys seam_keys(SeamTable& seam) {
+  Keys keys;
+  const char* const form = "{ cloth = name, along = pins }";
+  keys.add("a", CustomValue{form, &seam.a}, "",
+           "A side: the name of its cloth, and vertices in one open row along its edges, in any order.")
+      .must_be_given();
+  keys.add("b", CustomValue{form, &seam.b}, "", "The other side, of the same or of another cloth.").must_be_given();
+  keys.add("time", &seam.time, "s",
+           "Time at which the seam is closed. Until then each tie becomes shorter at constant speed.")
+      .at_least(0);
+  keys.add("reverse", &seam.reverse, "",
+           "Side b runs the other way. Otherwise it runs in the direction that keeps the ties shorter at the start.");
   return keys;
 }
 
@@ -271,13 +290,30 @@ Keys check_keys(CheckSettings& check) {
 
 }  // namespace
 
-std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene) {
+std::vector<TableType> cloth_tables(ClothTable& cloth) {
+  return {
+      {.name = "cloth",
+       .help = "A cloth: a mass-spring network on a triangle mesh. Several are `[[cloth]]`, see "
+               "[Several cloths](#several-cloths).",
+       .keys = cloth_keys(cloth),
+       .required = true,
+       .repeatable = true},
+      {.name = "cloth.transform", .help = "Places the starting shape in the world.", .keys = transform_keys(cloth)}};
+}
+
+TableType seam_table(SeamTable& seam) {
+  return {.name = "seam",
+          .help = "Sews two borders together, see [Seams](#seams).",
+          .keys = seam_keys(seam),
+          .required = false,
+          .repeatable = true};
+}
+
+std::vector<TableType> other_tables(Scene& scene) {
   std::vector<TableType> tables;
-  const auto add = [&](const char* name, const char* help, Keys keys) -> TableType& {
-    return tables.emplace_back(TableType{.name = name, .help = help, .keys = std::move(keys)});
+  const auto add = [&](const char* name, const char* help, Keys keys) {
+    tables.push_back(TableType{.name = name, .help = help, .keys = std::move(keys)});
   };
-  add("cloth", "The cloth: a mass-spring network on a triangle mesh.", cloth_keys(cloth)).required = true;
-  add("cloth.transform", "Places the starting shape in the world.", transform_keys(cloth));
   add("time", "Time step and duration.", time_keys(scene));
   add("integrator", "How the motion is computed.", integrator_keys(scene.simulation.integrator));
   add("camera", "The point of view.", camera_keys(scene.camera));
@@ -288,6 +324,13 @@ std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene) {
       overlay_keys(scene.overlay));
   add("check", "Settings of `drape check`, see [regression.md](regression.md). Nothing else uses them.",
       check_keys(scene.check));
+  return tables;
+}
+
+std::vector<TableType> scene_tables(ClothTable& cloth, SeamTable& seam, Scene& scene) {
+  std::vector<TableType> tables = cloth_tables(cloth);
+  tables.push_back(seam_table(seam));
+  for (TableType& table : other_tables(scene)) tables.push_back(std::move(table));
   return tables;
 }
 
@@ -380,9 +423,10 @@ std::string section(const TableText& table) {
 
 std::vector<TableText> reference_tables() {
   ClothTable cloth;
+  SeamTable seam;
   Scene scene;
   std::vector<TableText> tables;
-  for (const TableType& table : scene_tables(cloth, scene)) tables.push_back(text_of(table));
+  for (const TableType& table : scene_tables(cloth, seam, scene)) tables.push_back(text_of(table));
   for (const EffectType& type : effect_types()) {
     Effect effect = type.make();
     tables.push_back(text_of(effect_table(type, effect)));

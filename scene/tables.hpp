@@ -16,6 +16,7 @@ struct TomlValue;
 
 /// The values of [cloth] and [cloth.transform], before they become a Cloth.
 struct ClothTable {
+  std::string name;  ///< empty: it is the only one
   const TomlValue* mesh = nullptr;
   const TomlValue* rest = nullptr;
   const TomlValue* pins = nullptr;
@@ -29,9 +30,20 @@ struct ClothTable {
   std::optional<double> shear_stiffness, bend_stiffness;  ///< for edges_and_bend; default `stiffness` [N/m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     ///< [m/s]
 
+  std::optional<Rgb> color;       ///< instead of the look's
+  std::filesystem::path texture;  ///< likewise; empty: none of its own
+
   const TomlValue* scale = nullptr;
   Eigen::Vector3d rotate = Eigen::Vector3d::Zero();     ///< [degrees]
   Eigen::Vector3d translate = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// The values of [seam], before they become a Seam.
+struct SeamTable {
+  const TomlValue* a = nullptr;
+  const TomlValue* b = nullptr;
+  double time = 1;       ///< [s]
+  bool reverse = false;  ///< side b runs the other way
 };
 
 /// A table of the scene format.
@@ -40,12 +52,21 @@ struct TableType {
   std::string help;
   Keys keys;
   bool required = false;
-  bool repeatable = false;  ///< can be written as [[name]] several times
+  bool repeatable = false;  ///< can be written as [[name]] several times; read by its own reader
 };
 
-/// Returns every table of a scene except its effects; the keys write to `cloth` and `scene`. Together with
+/// Returns the tables of a cloth: [cloth] and [cloth.transform].
+std::vector<TableType> cloth_tables(ClothTable& cloth);
+
+/// Returns the table of a seam.
+TableType seam_table(SeamTable& seam);
+
+/// Returns every table of a scene except its cloths, its seams and its effects.
+std::vector<TableType> other_tables(Scene& scene);
+
+/// Returns every table of a scene except its effects; the keys write to `cloth`, `seam` and `scene`. Together with
 /// effect_types() it is the only description of the format: reader, messages and reference page are made from it.
-std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene);
+std::vector<TableType> scene_tables(ClothTable& cloth, SeamTable& seam, Scene& scene);
 
 /// Returns the table of an effect of this type; its keys write to the effect.
 TableType effect_table(const EffectType& type, Effect& effect);

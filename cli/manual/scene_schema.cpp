@@ -11,6 +11,8 @@
 #include "scene/motion_scene.hpp"
 #include "scene/tables.hpp"
 #include "scene/values.hpp"
+#include "drape/sim/body_shape.hpp"
+#include "drape/sim/effects/self_collision.hpp"
 
 namespace drape {
 namespace {
@@ -58,6 +60,16 @@ Json json_of(const Eigen::Vector3d& vector) { return {vector[0], vector[1], vect
 
 Json table_of(const Keys& keys);
 
+/// Returns the schema of ["cloth", "cloth", { friction = number }].
+Json friction_schema() {
+  const Json friction{{"type", "number"}, {"minimum", 0}};
+  return {
+      {"type", "array"},
+      {"items", Json::array({of_type("string"), of_type("string"), closed({{"friction", friction}}, {"friction"})})},
+      {"minItems", 3},
+      {"maxItems", 3}};
+}
+
 Json shape_schema(const BodyShapeKey& key) {
   BodyShape shape{.kind = key.kind};
   return table_of(body_shape_keys(shape));
@@ -87,6 +99,10 @@ class ValueSchema {
       return list(tuple({{"type", "integer"}, {"minimum", 0}}, 4));
     }
     if (const auto* shape = std::any_cast<BodyShapeKey>(&own.target)) return shape_schema(*shape);
+    if (std::any_cast<std::vector<ClothFriction>*>(&own.target) != nullptr) return list(friction_schema());
+    if (own.form.starts_with("{ cloth")) {
+      return closed({{"cloth", of_type("string")}, {"along", reference("pins")}}, {"along"});
+    }
     if (own.form == "mesh" || own.form == "pins") return reference(own.form.c_str());
     if (own.form == "file") return of_type("string");
     const Json positive{{"type", "number"}, {"exclusiveMinimum", 0}};  // a number or a vector
@@ -259,15 +275,20 @@ std::string scene_schema() {
   root.update(closed(Json::object()));
   root.update(any_of({requiring("cloth"), requiring("sweep")}));
   ClothTable cloth;
+  SeamTable seam;
   Scene scene;
-  for (const TableType& table : scene_tables(cloth, scene)) add_table(root, table.name, table_schema(table));
+  for (const TableType& table : scene_tables(cloth, seam, scene)) add_table(root, table.name, table_schema(table));
   // Alternatives: a simulated cloth, or a motion that is read.
   NamedMotion motion;
   const TomlValue* body = nullptr;
   Json read = table_schema(named_motion_table(motion, body));
   read["properties"]["body"] =
       text_and("What the cloth may touch, in the same formats.", any_of({of_type("string"), list(of_type("string"))}));
-  root["properties"]["cloth"] = any_of({root["properties"]["cloth"], std::move(read)});
+  const Json one = root["properties"]["cloth"];
+  Json several = list(one);
+  several["minItems"] = 1;
+  root["properties"]["cloth"] = any_of({one, std::move(several), std::move(read)});
+  root["properties"]["seam"] = repeatable(root["properties"]["seam"]);
   Json effects = Json::object();
   for (const EffectType& type : effect_types()) {
     Effect effect = type.make();

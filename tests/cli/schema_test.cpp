@@ -145,8 +145,9 @@ TEST(Schema, RefusesWhatDrapeRefuses) {
     if (table.name != "cloth") add(cloth + "[" + table.name + "]\nnonsense = 1\n");
   };
   ClothTable cloth_table;
+  SeamTable seam;
   Scene scene;
-  for (const TableType& table : scene_tables(cloth_table, scene)) add_keys(table);
+  for (const TableType& table : scene_tables(cloth_table, seam, scene)) add_keys(table);
   for (const EffectType& type : effect_types()) {
     Effect effect = type.make();
     add_keys(effect_table(type, effect));

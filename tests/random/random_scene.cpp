@@ -33,8 +33,9 @@ class Writer {
     text_ += fmt::format("[time]\nstep = {}\nduration = {}\n", number(step_), number(step_ * random_.below(51)));
     Scene scene;
     ClothTable cloth_table;
-    for (const TableType& table : scene_tables(cloth_table, scene)) {
-      if (table.name != "cloth" && table.name != "cloth.transform" && table.name != "time")
+    SeamTable seam;
+    for (const TableType& table : scene_tables(cloth_table, seam, scene)) {
+      if (!table.name.starts_with("cloth") && table.name != "seam" && table.name != "time")
         add(table, "[" + table.name);
     }
     for (const EffectType& type : effect_types()) {
@@ -44,7 +45,8 @@ class Writer {
       const double often = !stiff_ ? 0.3 : type.name == "gravity" ? 0.8 : 0.05;
       if (random_.number() > often || (!wild() && type.name == "moving_pins" && pins_.empty())) continue;
       // Pins can be moved by one table only.
-      const int count = type.repeatable && (wild() || type.name != "moving_pins") ? 1 + random_.below(2) : 1;
+      const bool alone = type.name == "bending" || type.name == "strain_limit";  // a second acts on the same cloth
+      const int count = type.repeatable && !alone && (wild() || type.name != "moving_pins") ? 1 + random_.below(2) : 1;
       for (int i = 0; i < count; ++i) {
         Effect effect = type.make();
         add(effect_table(type, effect),
@@ -75,6 +77,7 @@ class Writer {
     text_ += heading + "]\n";
     const auto motion = static_cast<std::size_t>(random_.below(8));
     for (const Key& key : table.keys.all()) {
+      if (key.name == "cloth" || key.name == "contact") continue;  // names of several cloths
       if (wild() ? !key.required && random_.number() > 0.35 : !wanted(table.name, key, motion)) continue;
       const std::string text = std::visit([&](const auto& target) { return value(key, target); }, key.target);
       if (key.name == "method") explicit_ = text == "\"semi-implicit\"" || text == "\"verlet\"";

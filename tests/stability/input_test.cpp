@@ -44,7 +44,8 @@ TEST(Input, ThatIsNotFiniteIsAnErrorAtEveryKey) {
   const test::SceneFolder folder;
   Scene scene;
   ClothTable cloth;
-  for (const TableType& table : scene_tables(cloth, scene)) {
+  SeamTable seam;
+  for (const TableType& table : scene_tables(cloth, seam, scene)) {
     for (const Key& key : table.keys.all()) expect_refused(folder, table.name, key);
   }
   for (const EffectType& type : effect_types()) {

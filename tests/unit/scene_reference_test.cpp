@@ -53,8 +53,9 @@ TEST(SceneReference, ThePageHasEveryFabric) {
 TEST(SceneReference, EveryKeyAndEffectHasARow) {
   const std::string reference = format_reference();
   ClothTable cloth;
+  SeamTable seam;
   Scene scene;
-  for (const TableType& table : scene_tables(cloth, scene)) {
+  for (const TableType& table : scene_tables(cloth, seam, scene)) {
     EXPECT_NE(reference.find("### `[" + table.name + "]`"), std::string::npos) << table.name;
     for (const Key& key : table.keys.all()) {
       EXPECT_NE(reference.find("\n| `" + key.name + "` | "), std::string::npos) << key.name;

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "drape/core/rgb.hpp"
 
@@ -38,6 +40,14 @@ struct Camera {
 /// scene.
 enum class ColorBy { stretch, speed, curvature };
 
+/// The look of one of several cloths.
+struct ClothLook {
+  int first_triangle = 0;              ///< of its triangles, up to those of the next cloth
+  Rgb color{};                         ///< without a texture
+  std::filesystem::path texture = {};  ///< an image file; empty: the plain `color`
+  std::string place = {};              ///< place of the texture's name, for messages; empty: the look's own texture
+};
+
 /// The look of a picture. Colours are sRGB.
 struct Look {
   std::filesystem::path texture = {};  ///< an image file; empty: the plain `color`
@@ -63,6 +73,7 @@ struct Look {
   std::optional<double> key_azimuth = {};    ///< of the key light, as the camera's; absent: moves with the camera
   std::optional<double> key_elevation = {};  ///< likewise [degrees]
   bool backdrop = false;                     ///< a floor below the picture's lower edge, if the scene has no ground
+  std::vector<ClothLook> cloths = {};        ///< of several cloths, instead of `color` and `texture`; empty: one cloth
 
   /// Background at the bottom and at the top of the picture. The default is a studio grey: darker than white cloth in
   /// light, brighter than any cloth in shade, and in a colour that cloth rarely has.
