@@ -105,11 +105,15 @@ std::string file_beside(const std::filesystem::path& file, const char* beside, c
 
 namespace {
 
-/// Returns the lines that all frames share: vt and f.
-std::string surface_lines(const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs) {
+/// Returns the lines that all frames share: vt and f. The triangles of each of several cloths are a group.
+std::string surface_lines(const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs,
+                          const std::vector<ClothPiece>& pieces) {
   std::string coordinates, faces;
   std::map<std::array<float, 2>, std::size_t> numbers;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (const ClothPiece& piece : pieces) {
+      if (pieces.size() > 1 && piece.first_triangle == static_cast<int>(t)) faces += "g " + piece.name + "\n";
+    }
     faces += 'f';
     for (std::size_t corner = 0; corner < 3; ++corner) {
       fmt::format_to(std::back_inserter(faces), " {}", triangles[t][corner] + 1);
@@ -147,7 +151,9 @@ void append_objects(const std::vector<Collider>& colliders, Eigen::Index before,
 }
 
 std::function<std::string(const Frame&)> make_writer(const FilmInfo& film, bool with_objects) {
-  const std::string surface = surface_lines(film.triangles(), film.texture_coordinates());
+  static const std::vector<ClothPiece> none;
+  const std::string surface =
+      surface_lines(film.triangles(), film.texture_coordinates(), film.cloth == nullptr ? none : film.cloth->pieces);
   return [surface, with_objects](const Frame& frame) {
     std::string text = fmt::format("# drape: frame {} at {:.9g} s, in metres, z up\n", frame.index, frame.time);
     const auto is_ground = [](const Collider& collider) { return std::holds_alternative<GroundShape>(collider); };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -113,6 +114,14 @@ std::string list(Count count, Text text_of) {
   return text + "]";
 }
 
+/// Returns a cloth's name as USD allows it: "table_cloth" for "table-cloth".
+std::string identifier(std::string name) {
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
+
+std::string material_of(const ClothPiece& piece) { return "/Scene/Material_" + identifier(piece.name); }
+
 }  // namespace
 
 void UsdSamples::add(int time_code, std::string value) {
@@ -216,7 +225,36 @@ void UsdWriter::write_cloth() {
                 list(uvs.size(), [&](std::size_t i) { return fmt::format("({}, {})", uvs[i][0], uvs[i][1]); }) +
                 " (\n" + indent + "    interpolation = \"faceVarying\"\n" + indent + ")\n");
   }
-  file_.write(indent + "rel material:binding = </Scene/ClothMaterial>\n    }\n\n");
+  if (!several_looks()) {
+    file_.write(indent + "rel material:binding = </Scene/ClothMaterial>\n    }\n\n");
+    return;
+  }
+  for (std::size_t k = 0; k < film_.cloth->pieces.size(); ++k) {
+    const ClothPiece& piece = film_.cloth->pieces[k];
+    const std::string faces =
+        list(piece.triangle_count, [&](int t) { return fmt::format("{}", piece.first_triangle + t); });
+    file_.write(
+        fmt::format("\n{0}def GeomSubset \"{1}\" (\n{0}    prepend apiSchemas = [\"MaterialBindingAPI\"]\n{0})\n{0}{{\n"
+                    "{0}    uniform token elementType = \"face\"\n{0}    uniform token familyName = \"materialBind\"\n"
+                    "{0}    int[] indices = {2}\n{0}    rel material:binding = <{3}>\n{0}}}\n",
+                    indent, identifier(piece.name), faces, material_of(piece)));
+  }
+  file_.write("    }\n\n");
+}
+
+bool UsdWriter::several_looks() const {
+  return film_.cloth != nullptr && film_.look != nullptr && film_.look->cloths.size() > 1 &&
+         film_.look->cloths.size() == film_.cloth->pieces.size();
+}
+
+void UsdWriter::write_materials() {
+  Look look = film_.look != nullptr ? *film_.look : Look{};
+  if (!several_looks()) return file_.write(usd_material("/Scene/ClothMaterial", look, file_.file()));
+  for (std::size_t k = 0; k < look.cloths.size(); ++k) {
+    look.color = look.cloths[k].color;
+    look.texture = look.cloths[k].texture;
+    file_.write(usd_material(material_of(film_.cloth->pieces[k]), look, file_.file()));
+  }
 }
 
 void UsdWriter::write_colliders() {
@@ -250,7 +288,7 @@ std::vector<OutputFile> UsdWriter::finish(Ending ending) {
   if (count_ == 0) return {};
   write_header();
   write_cloth();
-  file_.write(usd_material("/Scene/ClothMaterial", film_.look != nullptr ? *film_.look : Look{}, file_.file()));
+  write_materials();
   write_colliders();
   file_.write("}\n");
   const std::uintmax_t size = file_.commit(ending);

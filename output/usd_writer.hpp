@@ -60,6 +60,9 @@ class UsdWriter final : public MotionWriter {
   void add_first(const Frame& frame);
   void write_header();
   void write_cloth();
+  /// Returns true if each of several cloths has a look of its own.
+  [[nodiscard]] bool several_looks() const;
+  void write_materials();
   void write_faces(const std::vector<Triangle>& triangles);
   void write_colliders();
   void write_bodies(const std::string& color);

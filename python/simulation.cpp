@@ -361,6 +361,17 @@ void add_simulation(py::module_& module) {
           "triangles", [=](Self& self) { return copied(settings(self).cloth.triangles); },
           "m×3 numbers of vertices, counterclockwise seen from the front. A copy.")
       .def_property_readonly(
+          "cloths",
+          [=](Self& self) {
+            py::dict cloths;
+            for (const ClothPiece& piece : settings(self).cloth.pieces) {
+              const py::ssize_t first = piece.first_vertex;
+              cloths[py::str(piece.name)] = py::slice(first, first + piece.vertex_count, 1);
+            }
+            return cloths;
+          },
+          "The vertices of each named cloth, as a slice: positions[cloths[\"napkin\"]].")
+      .def_property_readonly(
           "rest", [=](Self& self) { return copied(settings(self).cloth.rest); },
           "The shape without strain, n×3 [m]. A copy.")
       .def_property_readonly(

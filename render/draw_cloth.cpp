@@ -58,12 +58,10 @@ DrawCloth::DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, c
   if (!uvs.empty() && uvs.size() != 3 * triangles.size()) {
     throw std::invalid_argument("a cloth needs a texture coordinate for each corner of each triangle, or none at all");
   }
-  if (!look.texture.empty()) {
-    if (uvs.empty()) {
-      throw UsageError(fmt::format("the texture {} cannot be put on a cloth whose mesh has no texture coordinates",
-                                   shown(look.texture)));
-    }
-    load_texture();
+  if (look.cloths.empty()) {
+    paint({.color = look.color, .texture = look.texture}, uvs);
+  } else {
+    for (const ClothLook& cloth : look.cloths) paint(cloth, uvs);
   }
   if (look.ambient_occlusion) {
     occlusion_.emplace();
@@ -78,12 +76,37 @@ void DrawCloth::shape(const Frame& frame) {
   hem_.append(positions_, normals_);
 }
 
-void DrawCloth::load_texture() {
+void DrawCloth::paint(const ClothLook& look, const std::vector<std::array<float, 2>>& uvs) {
+  Painted& cloth =
+      painted_.emplace_back(Painted{.first_triangle = look.first_triangle, .color = look.color, .texture = {}});
+  if (look_.cloths.size() > 1 && !uvs.empty()) {
+    const auto next = std::ranges::find_if(
+        look_.cloths, [&](const ClothLook& other) { return other.first_triangle > look.first_triangle; });
+    const auto last = next == look_.cloths.end() ? triangles_.size() : static_cast<std::size_t>(next->first_triangle);
+    const std::span all(uvs);
+    const std::size_t first = 3 * static_cast<std::size_t>(look.first_triangle);
+    cloth.woven = std::ranges::any_of(all.subspan(first, 3 * last - first),
+                                      [](const std::array<float, 2>& uv) { return uv[0] != 0 || uv[1] != 0; });
+  }
+  if (look.texture.empty()) return;
+  if (uvs.empty()) {
+    throw UsageError(fmt::format("the texture {} cannot be put on a cloth whose mesh has no texture coordinates",
+                                 shown(look.texture)));
+  }
+  cloth.texture = load_texture(look.texture);
+}
+
+std::size_t DrawCloth::painted_at(int triangle) const {
+  const auto after = std::ranges::upper_bound(painted_, triangle, {}, &Painted::first_triangle);
+  return static_cast<std::size_t>(after - painted_.begin()) - 1;
+}
+
+Texture DrawCloth::load_texture(const std::filesystem::path& file) const {
   GLint largest = 0;
   gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-  const std::vector<TextureLevel> levels = load_texture_image(look_.texture, largest);
-  texture_.emplace(gl_);
-  gl_.BindTexture(GL_TEXTURE_2D, texture_->id());
+  const std::vector<TextureLevel> levels = load_texture_image(file, largest);
+  Texture texture(gl_);
+  gl_.BindTexture(GL_TEXTURE_2D, texture.id());
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 2);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     gl_.TexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGB16, levels[i].width, levels[i].height, 0, GL_RGB,
@@ -95,6 +118,7 @@ void DrawCloth::load_texture() {
     gl_.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY,
                       static_cast<float>(std::min(max_anisotropy(gl_), look_.anisotropy)));
   }
+  return texture;
 }
 
 void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
@@ -221,16 +245,18 @@ void DrawCloth::upload_colors(std::span<const Rgb> colors) {
 }
 
 void DrawCloth::find_programs(std::size_t sphere_count, bool colored, bool woven) {
-  if (programs_[0] && sphere_count_ == sphere_count && colored_ == colored && woven_ == woven) return;
+  if (painted_.front().programs[0] && sphere_count_ == sphere_count && colored_ == colored && woven_ == woven) return;
   sphere_count_ = sphere_count;
   colored_ = colored;
   woven_ = woven;
-  for (std::size_t light = 0; light < (look_.shadows ? programs_.size() : 1); ++light) {
-    programs_[light] = find_program(static_cast<ClothShadow::Light>(light));
+  for (Painted& cloth : painted_) {
+    for (std::size_t light = 0; light < (look_.shadows ? kinds_of_light : 1); ++light) {
+      cloth.programs[light] = find_program(cloth, static_cast<ClothShadow::Light>(light));
+    }
   }
 }
 
-const Program* DrawCloth::find_program(ClothShadow::Light light) const {
+const Program* DrawCloth::find_program(const Painted& cloth, ClothShadow::Light light) const {
   using Light = ClothShadow::Light;
   const bool shadows = light == Light::past_spheres || light == Light::past_cloth;
   std::vector<std::string> defines = light_defines(look_, sphere_count_, shadows);
@@ -238,37 +264,42 @@ const Program* DrawCloth::find_program(ClothShadow::Light light) const {
   if (light == Light::none) defines.emplace_back("DARK");
   if (colored_) {
     defines.emplace_back("VERTEX_COLORS");
-  } else if (texture_) {
+  } else if (cloth.texture) {
     defines.emplace_back("TEXTURE");
   }
-  if (woven_) defines.emplace_back("WEAVE");
+  if (woven_ && cloth.woven) defines.emplace_back("WEAVE");
   if (look_.mesh_lines) defines.emplace_back("MESH_LINES");
   return &device_.program("cloth", defines);
 }
 
-void DrawCloth::set_uniforms(const Program& program) const {
+void DrawCloth::set_uniforms(const Painted& cloth, const Program& program) const {
   program.set("cloth_texture", 0);
   program.set("translucency", static_cast<float>(look_.translucency));
-  program.set("cloth_color", linear_color(look_.color));
+  program.set("cloth_color", linear_color(cloth.color));
   program.set("line_color", linear_color(look_.line_color));
   program.set("line_width", static_cast<float>(look_.line_width));
-  if (woven_) weave_->set_uniform(program);
+  if (woven_ && cloth.woven) weave_->set_uniform(program);
 }
 
-// Sorts triangles by light: reading the shadow map takes llvmpipe several times as long as all else in a pixel.
-void DrawCloth::upload_indices(const ClothShadow& shadow) {
-  std::array<std::vector<unsigned>, 4> groups;
+// Sorts triangles by cloth, then by light: reading the shadow map takes llvmpipe several times as long as all else in a
+// pixel.
+void DrawCloth::upload_indices(const ClothShadow* shadow) {
+  std::vector<std::vector<unsigned>> groups(kinds_of_light * painted_.size());
   groups[0].reserve(indices_.size());
-  std::vector<ClothShadow::Light> lights;
-  for (const Triangle& triangle : surface_.triangles()) lights.push_back(shadow.light_on(triangle));
-  for (const int piece : hem_.pieces()) lights.push_back(lights[static_cast<std::size_t>(piece)]);
-  for (std::size_t t = 0; t < lights.size(); ++t) {
-    std::vector<unsigned>& group = groups[static_cast<std::size_t>(lights[t])];
+  std::vector<std::size_t> group_of;
+  for (std::size_t t = 0; t < surface_.triangles().size(); ++t) {
+    const std::size_t light =
+        shadow == nullptr ? 0 : static_cast<std::size_t>(shadow->light_on(surface_.triangles()[t]));
+    group_of.push_back(kinds_of_light * painted_at(surface_.pieces()[t].parent) + light);
+  }
+  for (const int piece : hem_.pieces()) group_of.push_back(group_of[static_cast<std::size_t>(piece)]);
+  for (std::size_t t = 0; t < group_of.size(); ++t) {
+    std::vector<unsigned>& group = groups[group_of[t]];
     for (std::size_t c = 0; c < 3; ++c) group.push_back(indices_[3 * t + c]);
   }
   std::vector<unsigned>& all = groups[0];
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    counts_[k] = groups[k].size() / 3;
+    painted_[k / kinds_of_light].counts[k % kinds_of_light] = groups[k].size() / 3;
     if (k > 0) all.insert(all.end(), groups[k].begin(), groups[k].end());
   }
   gl_.BindVertexArray(array_.id());
@@ -280,23 +311,25 @@ void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<cons
   if (occlusion_) upload_occlusion(shot);
   if (!colors.empty()) upload_colors(colors);
   find_programs(shot.spheres.size(), !colors.empty(), colors.empty() && weave_ && weave_->visible(shot, height_));
-  counts_ = {indices_.size() / 3, 0, 0, 0};
-  if (shadow != nullptr) upload_indices(*shadow);
-  if (texture_) {
-    gl_.ActiveTexture(GL_TEXTURE0);
-    gl_.BindTexture(GL_TEXTURE_2D, texture_->id());
-  }
+  painted_.front().counts = {indices_.size() / 3, 0, 0, 0};
+  if (shadow != nullptr || painted_.size() > 1) upload_indices(shadow);
   gl_.BindVertexArray(array_.id());
   std::size_t first = 0;
-  for (std::size_t k = 0; k < counts_.size(); first += counts_[k++]) {
-    if (counts_[k] == 0) continue;
-    const Program& program = *programs_[k];
-    program.use();
-    set_uniforms(program);
-    shot.set_uniforms(program);
-    if (shadow != nullptr) shadow->set_uniforms(program);
-    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * counts_[k]), GL_UNSIGNED_INT,
-                     buffer_offset(3 * first * sizeof(unsigned)));
+  for (const Painted& cloth : painted_) {
+    if (cloth.texture) {
+      gl_.ActiveTexture(GL_TEXTURE0);
+      gl_.BindTexture(GL_TEXTURE_2D, cloth.texture->id());
+    }
+    for (std::size_t k = 0; k < kinds_of_light; first += cloth.counts[k++]) {
+      if (cloth.counts[k] == 0) continue;
+      const Program& program = *cloth.programs[k];
+      program.use();
+      set_uniforms(cloth, program);
+      shot.set_uniforms(program);
+      if (shadow != nullptr) shadow->set_uniforms(program);
+      gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * cloth.counts[k]), GL_UNSIGNED_INT,
+                       buffer_offset(3 * first * sizeof(unsigned)));
+    }
   }
 }
 

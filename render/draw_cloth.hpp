@@ -41,8 +41,8 @@ class Weave {
   Eigen::Vector2f yarns_ = Eigen::Vector2f::Zero();
 };
 
-/// Draws the cloth: its smooth surface with a hem, lit on both sides, textured or in one colour, with optional mesh
-/// lines.
+/// Draws the cloth: its smooth surface with a hem, lit on both sides, with optional mesh lines. Each of several cloths
+/// has its own texture or colour.
 class DrawCloth {
  public:
   /// Takes the parameters of Renderer and throws its exceptions.
@@ -66,6 +66,18 @@ class DrawCloth {
   void draw(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors = {});
 
  private:
+  static constexpr std::size_t kinds_of_light = 4;
+
+  /// A cloth with one texture or colour.
+  struct Painted {
+    int first_triangle;  // of the mesh
+    Rgb color;
+    std::optional<Texture> texture;
+    bool woven = true;                                         // has texture coordinates, which a weave needs
+    std::array<std::size_t, kinds_of_light> counts{};          // triangles per kind of light, in the index buffer
+    std::array<const Program*, kinds_of_light> programs = {};  // likewise; without shadows only the first is set
+  };
+
   /// Attributes of a GL vertex that are the same in all frames.
   struct Corner {
     std::array<float, 2> uv{};
@@ -80,17 +92,21 @@ class DrawCloth {
     std::array<float, 3> weights;
   };
 
-  void load_texture();
+  void paint(const ClothLook& look, const std::vector<std::array<float, 2>>& uvs);
+  [[nodiscard]] Texture load_texture(const std::filesystem::path& file) const;
+  /// Returns the number of the cloth that a triangle of the mesh belongs to.
+  [[nodiscard]] std::size_t painted_at(int triangle) const;
   void make_corners(const std::vector<std::array<float, 2>>& uvs);
   void add_hem(std::vector<Corner>& corners);
   void upload_corners(const std::vector<Corner>& corners);
   void upload_shape();
   void upload_occlusion(const Shot& shot);
   void upload_colors(std::span<const Rgb> colors);
-  void upload_indices(const ClothShadow& shadow);
+  /// @param shadow null: no shadows
+  void upload_indices(const ClothShadow* shadow);
   void find_programs(std::size_t sphere_count, bool colored, bool woven);
-  const Program* find_program(ClothShadow::Light light) const;
-  void set_uniforms(const Program& program) const;
+  const Program* find_program(const Painted& cloth, ClothShadow::Light light) const;
+  void set_uniforms(const Painted& cloth, const Program& program) const;
 
   GlDevice& device_;
   const GlFunctions& gl_;
@@ -107,10 +123,8 @@ class DrawCloth {
   std::optional<Buffer> color_buffer_;  // made when vertices first have colours
   std::optional<Buffer> occlusion_buffer_;
   std::optional<AmbientOcclusion> occlusion_;  // and its buffer: absent if the look has none
-  std::optional<Texture> texture_;
-  std::vector<unsigned> indices_;             // corners of all triangles
-  std::array<std::size_t, 4> counts_{};       // triangles per kind of light, in the order of the index buffer
-  std::array<const Program*, 4> programs_{};  // per kind of light; without shadows only the first is set
+  std::vector<Painted> painted_;               // in the order of the triangles
+  std::vector<unsigned> indices_;              // corners of all triangles
   std::size_t sphere_count_ = 0;
   bool colored_ = false, woven_ = false;
   std::optional<Weave> weave_;

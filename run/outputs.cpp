@@ -204,11 +204,17 @@ void require_outputs(const Scene& scene, const RunOptions& options) {
 }
 
 void require_texture(const Scene& scene, int largest) {
-  if (scene.look.texture.empty()) return;
-  try {
-    require_texture_image(scene.look.texture, largest);
-  } catch (const UsageError& error) {
-    throw UsageError(scene.texture_location + ": " + error.what());
+  const auto require = [&](const std::filesystem::path& texture, const std::string& place) {
+    if (texture.empty()) return;
+    try {
+      require_texture_image(texture, largest);
+    } catch (const UsageError& error) {
+      throw UsageError(place + ": " + error.what());
+    }
+  };
+  require(scene.look.texture, scene.texture_location);
+  for (const ClothLook& cloth : scene.look.cloths) {
+    if (!cloth.place.empty()) require(cloth.texture, cloth.place);
   }
 }
 

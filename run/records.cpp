@@ -43,22 +43,39 @@ class Records::Record {
 
 class Records::EnergyLog final : public StepObserver {
  public:
-  explicit EnergyLog(const std::string& path) : file(path) { file.write("step,time,total,kinetic,gravity,elastic\n"); }
+  explicit EnergyLog(const std::string& path) : file(path) {}
 
   void begin(const Simulation& simulation) override {
+    std::string header = "step,time,total,kinetic,gravity,elastic";
+    const std::vector<ClothPiece>& pieces = simulation.cloth().pieces;
+    columns_ = pieces.size() > 1 ? pieces.size() : 0;
+    for (std::size_t k = 0; k < columns_; ++k) {
+      header += fmt::format(",{0}.kinetic,{0}.gravity,{0}.elastic", pieces[k].name);
+    }
+    file.write(header + "\n");
     if (simulation.state().step == 0) add(simulation);
   }
-  void replay(const StepRow& row, double time, double /*seconds*/) override { add(row.step, time, row.energies); }
+  void replay(const StepRow& row, double time, double /*seconds*/) override { add(row.step, time, row.energies, {}); }
   void after_step(const Simulation& simulation, const StepReport&, double) override { add(simulation); }
 
   Record file;
 
  private:
-  void add(const Simulation& simulation) { add(simulation.state().step, simulation.time(), simulation.energies()); }
-  void add(std::int64_t step, double time, const Energies& e) {
-    file.write(fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}\n", step, time, e.total(), e.kinetic, e.gravity,
-                           e.elastic));
+  void add(const Simulation& simulation) {
+    add(simulation.state().step, simulation.time(), simulation.energies(),
+        columns_ > 0 ? simulation.piece_energies() : std::vector<Energies>());
   }
+  /// @param pieces energies of several cloths; empty: unknown
+  void add(std::int64_t step, double time, const Energies& e, const std::vector<Energies>& pieces) {
+    std::string row = fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}", step, time, e.total(), e.kinetic,
+                                  e.gravity, e.elastic);
+    for (const Energies& one : pieces)
+      row += fmt::format(",{:.12g},{:.12g},{:.12g}", one.kinetic, one.gravity, one.elastic);
+    if (pieces.empty()) row += std::string(3 * columns_, ',');
+    file.write(row + "\n");
+  }
+
+  std::size_t columns_ = 0;  // number of cloths with columns of their own
 };
 
 class Records::TraceLog final : public StepObserver {

@@ -13,8 +13,9 @@ namespace drape {
 
 /// Paths of a run's records; empty: not wanted.
 struct RecordPaths {
-  std::string stats;      ///< JSON, see Statistics::to_json
-  std::string energies;   ///< CSV: step,time,total,kinetic,gravity,elastic, from step 0 on [s, J]
+  std::string stats;  ///< JSON, see Statistics::to_json
+  std::string
+      energies;  ///< CSV: step,time,total,kinetic,gravity,elastic, and of each of several cloths, from step 0 on [s, J]
   std::string positions;  ///< CSV: vertex,x,y,z after the last step, 17 digits [m]
   std::string trace;      ///< CSV: step,time,iterations,residual,step_us, from step 1 on [s, N, µs]
 };

@@ -10,6 +10,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "core/files.hpp"
 #include "core/hash.hpp"

@@ -7,12 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "drape/sim/body_shape.hpp"
+#include "drape/sim/effects/self_collision.hpp"
 #include "scene/mesh_value.hpp"
 #include "scene/motion_scene.hpp"
 #include "scene/tables.hpp"
 #include "scene/values.hpp"
-#include "drape/sim/body_shape.hpp"
-#include "drape/sim/effects/self_collision.hpp"
 
 namespace drape {
 namespace {
