@@ -9,8 +9,8 @@
 #include <sstream>
 #include <utility>
 
-#include "drape/scene/scene.hpp"
 #include "core/text.hpp"
+#include "drape/scene/scene.hpp"
 #include "reports/components.hpp"
 
 namespace drape::html {
