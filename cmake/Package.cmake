@@ -1,4 +1,4 @@
-# Package for find_package(drape) of other CMake projects, see docs/library.md.
+# Package for find_package(drape) of other CMake projects, see docs/reference/library.md.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/drape)
 

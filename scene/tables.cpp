@@ -89,7 +89,7 @@ Keys time_keys(Scene& scene) {
   keys.add("accuracy", &scene.simulation.accuracy, "m",
            "Limit on the error that a step may add to any vertex. Each step is cut into as many equal substeps as "
            "needed, of velocity Verlet or SDIRK2; `scheme`, `tolerance` and `stop` follow from it, see "
-           "[accuracy.md](accuracy.md#asking-for-an-accuracy).")
+           "[accuracy.md](../notes/accuracy.md#asking-for-an-accuracy).")
       .above(0);
   keys.add("duration", &scene.duration, "s", "Length of the scene, rounded to whole steps.").at_least(0);
   return keys;
@@ -97,23 +97,25 @@ Keys time_keys(Scene& scene) {
 
 Keys integrator_keys(IntegratorSettings& integrator) {
   Keys keys;
-  keys.choice("method", integrator.method, {method_names.begin(), method_names.end()},
-              "How a step is computed. Auto: by verlet in substeps, or quasi-newton where that is the cheaper one, see "
-              "[accuracy.md](accuracy.md). Explicit: semi-implicit (symplectic Euler) and verlet (velocity Verlet). "
-              "Implicit: implicit (Newton's method), liu13 (the local/global method of Liu et al. 2013) and "
-              "quasi-newton (L-BFGS started from liu13's matrix).");
+  keys.choice(
+      "method", integrator.method, {method_names.begin(), method_names.end()},
+      "How a step is computed. Auto: by verlet in substeps, or quasi-newton where that is the cheaper one, see "
+      "[accuracy.md](../notes/accuracy.md). Explicit: semi-implicit (symplectic Euler) and verlet (velocity Verlet). "
+      "Implicit: implicit (Newton's method), liu13 (the local/global method of Liu et al. 2013) and "
+      "quasi-newton (L-BFGS started from liu13's matrix).");
   keys.choice("scheme", integrator.scheme, {scheme_names.begin(), scheme_names.end()},
               "Time integration of the implicit methods: backward Euler, first-order, or SDIRK2 (Alexander 1977), "
               "second-order with two stages per step.");
-  keys.choice("stop", integrator.stop, {stopping_rule_names.begin(), stopping_rule_names.end()},
-              "What must fall below `tolerance` to end a step: the norm of the change of the positions in an iteration "
-              "(m), the norm of the unbalanced force (N), or the estimated distance of the worst vertex from the exact "
-              "solution (m, see [accuracy.md](accuracy.md#stopping-at-an-error)). Default: change if a `tolerance` is "
-              "given, otherwise error. Implicit methods only, like the next two keys.");
+  keys.choice(
+      "stop", integrator.stop, {stopping_rule_names.begin(), stopping_rule_names.end()},
+      "What must fall below `tolerance` to end a step: the norm of the change of the positions in an iteration "
+      "(m), the norm of the unbalanced force (N), or the estimated distance of the worst vertex from the exact "
+      "solution (m, see [accuracy.md](../notes/accuracy.md#stopping-at-an-error)). Default: change if a `tolerance` is "
+      "given, otherwise error. Implicit methods only, like the next two keys.");
   keys.add(
           "tolerance", &integrator.tolerance, "m or N",
           "See `stop`. Default: 1e-3 for change and gradient; for error a tenth of the error that the time step itself "
-          "makes, estimated in every step, see [accuracy.md](accuracy.md#the-default-tolerance).")
+          "makes, estimated in every step, see [accuracy.md](../notes/accuracy.md#the-default-tolerance).")
       .above(0);
   keys.add("max_iterations", &integrator.max_iterations, "",
            "Limit on the iterations of a step. Default: 20 for implicit, 100 for liu13, 500 for quasi-newton; 2000 for "
@@ -214,7 +216,7 @@ Keys look_keys(Look& look, std::optional<Quality>& quality) {
               "Everything that trades time for detail, relative to what the scene says: draft halves the film's size "
               "and rate, and a grid's cells along both sides, and solves coarsely, film changes nothing, print doubles "
               "the size and filters textures, see "
-              "[usage.md](usage.md#quality).");
+              "[command-line.md](command-line.md#quality).");
   return keys;
 }
 

@@ -91,7 +91,7 @@ def scene_pages(folder):
             shown = f"![{name}](../../{image})\n\n" if picture else ""
             (folder / page).write_text(
                 f"# {name}\n\n" + "\n\n".join(about) + f"\n\n{shown}```sh\ndrape render scenes/{name}.toml\n```\n\n"
-                f"The file, [{name.name}.toml]({name.name}.toml); [its keys](../../docs/scene-format.md#reference):\n\n"
+                f"The file, [{name.name}.toml]({name.name}.toml); [its keys](../../docs/reference/scene-format.md#reference):\n\n"
                 f"```toml\n{text.rstrip()}\n```\n", encoding="utf-8")
             link = page.with_suffix(".html")
             first = html.escape(re.split(r"(?<=[.]) ", about[0])[0]) if about else ""
@@ -110,23 +110,32 @@ def title_of(page, folder):
     return found.group(1).replace('"', "'") if found else page.stem
 
 
+SECTIONS = {"start": "Start", "cookbook": "Cookbook", "reference": "Reference", "notes": "Notes"}
+
+
 def navigation(folder, docs, scenes):
-    """mkdocs' nav: the way a reader takes, then everything else."""
+    """mkdocs' nav: a section for each folder of docs/, in the order of the links of docs/README.md and of its own README.md."""
     def entries(pages, indent):
         return "".join(f'{indent}- "{title_of(p, folder)}": {p}\n' for p in pages if (folder / p).exists())
 
-    first = [p for p in (Path("docs") / f"{n}.md" for n in ("tutorial", "scene-format", "effects", "outputs")) if p in docs]
-    rest = [p for p in docs if p not in first]
+    text = '  - "drape": README.md\n  - "Gallery": gallery.md\n'
+    for name, title in SECTIONS.items():
+        own = Path("docs") / name
+        listed = [Path(os.path.normpath(index.parent / target))
+                  for index in (Path("docs/README.md"), own / "README.md") if index in docs
+                  for target in targets((ROOT / index).read_text(encoding="utf-8"))]
+        pages = [p for p in docs if p.parent == own]
+        pages.sort(key=lambda p: (listed.index(p) if p in listed else len(listed), p))
+        text += f'  - "{title}":\n' + entries(pages, "    ")
     project = [Path(p) for p in PAGES[1:]] + [Path("bench/README.md")]
-    return ('nav:\n  - "drape": README.md\n  - "Gallery": gallery.md\n  - "Guide":\n' + entries(first + rest, "    ") +
-            '  - "Scenes":\n' + entries(scenes, "    ") + '  - "Project":\n' + entries(project, "    "))
+    return ("nav:\n" + text + '  - "Scenes":\n' + entries(scenes, "    ") + '  - "Project":\n' + entries(project, "    "))
 
 
 def main():
     folder = Path(sys.argv[1])
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    docs = sorted(p.relative_to(ROOT) for p in (ROOT / "docs").glob("*.md"))
+    docs = sorted(p.relative_to(ROOT) for p in (ROOT / "docs").rglob("*.md"))
     done = set()
     for page in [Path(p) for p in PAGES] + docs:
         copy_with_links(page, folder, done)

@@ -1,5 +1,6 @@
 #include "tests/cli/documents.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -23,6 +24,20 @@ std::string without_comment(const std::string& command) {
 int code_of(const std::string& test) { return test.starts_with("exit ") ? std::stoi(test.substr(5)) : 0; }
 
 }  // namespace
+
+std::vector<std::filesystem::path> pages_of(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> pages;
+  const auto add = [&](const fs::path& file) {
+    if (file.extension() == ".md") pages.push_back(file.lexically_relative(folder));
+  };
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename().string().starts_with("README.")) add(entry.path());
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "docs")) add(entry.path());
+  std::sort(pages.begin(), pages.end());
+  return pages;
+}
 
 std::vector<Block> blocks_of(const std::filesystem::path& page) {
   std::ifstream text(page);

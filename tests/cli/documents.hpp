@@ -25,6 +25,9 @@ struct Block {
   int line = 0;  ///< line number of the first one in the page
 };
 
+/// Returns README.md, its translations and all pages of docs/ below a folder, relative to it, in order.
+std::vector<std::filesystem::path> pages_of(const std::filesystem::path& folder);
+
 std::vector<Block> blocks_of(const std::filesystem::path& page);
 
 /// Returns the commands of a block. In a `console` block they follow "$ ", each with the output up to the next; in a

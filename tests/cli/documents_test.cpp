@@ -89,16 +89,15 @@ void expect_page_true(const std::string& page, bool nightly) {
   }
 }
 
+/// Returns the pages with commands, of one language.
 std::vector<std::string> pages() {
-  std::vector<std::string> all{"README.md"};
-  for (const auto& entry : fs::directory_iterator(source / "docs")) {
-    const std::string name = entry.path().filename().string();
-    if (entry.path().extension() != ".md" || name.ends_with(".zh-CN.md")) continue;  // Chinese pages are compared below
+  std::vector<std::string> all;
+  for (const fs::path& page : test::pages_of(source)) {
+    if (page.string().ends_with(".zh-CN.md")) continue;  // pages_test.cpp compares Chinese pages with the English ones
     std::size_t commands = 0;
-    for (const Block& block : test::blocks_of(entry.path())) commands += test::commands_of(block).size();
-    if (commands > 0) all.push_back("docs/" + name);
+    for (const Block& block : test::blocks_of(source / page)) commands += test::commands_of(block).size();
+    if (commands > 0) all.push_back(page.string());
   }
-  std::sort(all.begin(), all.end());
   return all;
 }
 
@@ -107,7 +106,7 @@ class Documents : public testing::TestWithParam<std::string> {};
 TEST_P(Documents, CommandsDoWhatIsSaid) { expect_page_true(GetParam(), false); }
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = fs::path(info.param).stem().string();
+  std::string name = fs::path(info.param).replace_extension().string();
   std::replace_if(
       name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
   return name;
@@ -119,44 +118,6 @@ class LongDocuments : public Documents {};
 TEST_P(LongDocuments, CommandsDoWhatIsSaid) { expect_page_true(GetParam(), true); }
 INSTANTIATE_TEST_SUITE_P(Nightly, LongDocuments, testing::ValuesIn(pages()), test_name);
 
-/// Returns the parts that two languages of a page must share: levels of headings, commands, quoted output, code, links
-/// and pictures.
-std::string skeleton(const fs::path& page) {
-  std::string text;
-  for (const Block& block : test::blocks_of(page)) {
-    text += "```" + block.language + " " + block.file + " " + block.test + "\n";
-    for (const std::string& line : block.lines) {
-      if (line.find("\\caption") == std::string::npos) {
-        const std::string code = line.substr(0, line.find("  #"));
-        text += code.substr(0, code.find_last_not_of(' ') + 1) + "\n";
-      }
-    }
-  }
-  std::istringstream lines(test::content(page));
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("```")) inside = !inside;
-    if (inside) continue;
-    const std::size_t level = line.find_first_not_of('#');
-    const std::size_t digits = line.find_first_not_of("0123456789.", level == std::string::npos ? 0 : level + 1);
-    if (level != std::string::npos && level > 0 && line[level] == ' ') text += line.substr(0, digits) + "\n";
-    for (std::size_t at = 0; (at = line.find("](", at)) != std::string::npos; ++at) {
-      const std::string target = line.substr(at + 2, line.find(')', at) - at - 2);
-      // A page links to its other language, and to other pages in its own.
-      if (target.find("README") == std::string::npos && target.find("tutorial") == std::string::npos)
-        text += target + "\n";
-    }
-  }
-  return text;
-}
-
-TEST(Translations, HaveTheSameHeadingsCommandsAndLinks) {
-  for (const char* page : {"README", "docs/tutorial"}) {
-    EXPECT_EQ(skeleton(source / (std::string(page) + ".md")), skeleton(source / (std::string(page) + ".zh-CN.md")))
-        << page;
-  }
-}
-
 TEST(Quotes, StandForAnythingWhereTheyHaveDots) {
   EXPECT_TRUE(test::is_as_quoted("100 steps, … each", "100 steps, 3.2 iterations each"));
   EXPECT_TRUE(test::is_as_quoted("a … b …", "a 1 b 2"));
@@ -165,21 +126,6 @@ TEST(Quotes, StandForAnythingWhereTheyHaveDots) {
   EXPECT_TRUE(test::are_as_quoted({"…", "end"}, {"one", "two", "end"}));
   EXPECT_FALSE(test::are_as_quoted({"one", "end"}, {"one", "two", "end"}));
   EXPECT_FALSE(test::are_as_quoted({"…", "end"}, {"one"}));
-}
-
-/// Relative links of a page, except those into a page, have targets.
-TEST(Links, LeadSomewhere) {
-  for (const auto& folder : {source, source / "docs", source / "bench"}) {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.path().extension() != ".md") continue;
-      const std::string text = test::content(entry.path());
-      for (std::size_t at = 0; (at = text.find("](", at)) != std::string::npos; ++at) {
-        const std::string target = text.substr(at + 2, text.find_first_of("#)", at + 2) - at - 2);
-        if (target.empty() || target.find(':') != std::string::npos) continue;
-        EXPECT_TRUE(fs::exists(folder / target)) << entry.path() << ": " << target;
-      }
-    }
-  }
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TEST(Manual, HasAPageForEveryCommandWithEveryOption) {
 TEST(Manual, HasEveryKeyOfTheSceneFormat) {
   const Manual manual;
   const std::string page = plain(manual.page("man5/drape-scene.5"));
-  const std::string reference = test::content(DRAPE_SOURCE_DIR "/docs/scene-format.md");
+  const std::string reference = test::content(DRAPE_SOURCE_DIR "/docs/reference/scene-format.md");
   const std::string keys = reference.substr(reference.find("<!-- reference: begin -->"));
   const std::regex row("\n\\| `([a-z_]+)` \\|");
   int count = 0;

@@ -97,8 +97,8 @@ TEST_P(Start, InsideABallOrABoxIsBroughtOut) {
       const Separated found = separate(s, 0.4);
       EXPECT_GT(found.after, 0) << step << s.effects[1].name();
       EXPECT_LT(found.left_again, 0) << step << s.effects[1].name();
-      // Across the edges of a box the cloth is stretched until it is around them, which the figures in docs/effects.md
-      // say.
+      // Across the edges of a box the cloth is stretched until it is around them: docs/reference/effects.md has
+      // figures.
       if (s.effects[1].name() == Sphere::name) {
         EXPECT_LE(found.rise, allowed_rise(s, deep + distance, 1) + found.elastic) << step;
       }

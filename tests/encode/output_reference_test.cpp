@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-constexpr const char* page_file = DRAPE_SOURCE_DIR "/docs/outputs.md";
+constexpr const char* page_file = DRAPE_SOURCE_DIR "/docs/reference/outputs.md";
 
 TEST(OutputReference, ThePageHasTheProgramsOwnDescriptionOfItsFormats) {
   const std::string text = test::content(page_file);

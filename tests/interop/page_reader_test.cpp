@@ -1,4 +1,4 @@
-// The Python reader of motion files in docs/motion-file.md reads the same data as drape.
+// The Python reader of motion files in docs/reference/motion-file.md reads the same data as drape.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ std::string expected_bytes(MotionReader& motion, const Mesh& mesh) {
 TEST(PagesReader, ReadsWhatDrapeDoes) {
   if (std::getenv("DRAPE_INTEROP") == nullptr) GTEST_SKIP() << "script/interop installs numpy and runs this";
   const SceneFolder folder;
-  const std::string page = content(source / "docs/motion-file.md"), fence = "```python\n";
+  const std::string page = content(source / "docs/reference/motion-file.md"), fence = "```python\n";
   const std::size_t begin = page.find(fence) + fence.size();
   folder.write(
       "reader.py",

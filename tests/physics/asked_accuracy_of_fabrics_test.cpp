@@ -1,5 +1,5 @@
 // Error that a step adds to a vertex, over random scenes: fabrics, poses, speeds, pins, steps and accuracies. They have
-// no contact; docs/accuracy.md tells what a step with an impact may miss.
+// no contact; docs/notes/accuracy.md tells what a step with an impact may miss.
 
 #include <gtest/gtest.h>
 

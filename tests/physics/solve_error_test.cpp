@@ -52,7 +52,7 @@ TEST_P(SolveError, IsWithinTheToleranceWhereAStepStopsAtOne) {
     beyond += error > tolerance ? 1 : 0;
     far_beyond += error > 3 * tolerance ? 1 : 0;
   });
-  // It is an estimate: docs/accuracy.md tells how often it is wrong. The cloth buckles in one of these steps.
+  // It is an estimate: docs/notes/accuracy.md tells how often it is wrong. The cloth buckles in one of these steps.
   EXPECT_LE(beyond, 4);
   EXPECT_LE(far_beyond, 1);
 }

@@ -5,7 +5,7 @@ import textwrap
 import drape
 from conftest import SOURCE
 
-PAGE = (SOURCE / "docs/python.md").read_text()
+PAGE = (SOURCE / "docs/reference/python.md").read_text()
 
 
 def test_the_page_says_what_happens(tmp_path, monkeypatch, capsys):
@@ -15,14 +15,14 @@ def test_the_page_says_what_happens(tmp_path, monkeypatch, capsys):
     assert len(cells) >= 5
     names = {}
     for code, said in cells:
-        exec(compile(code, "docs/python.md", "exec"), names)
+        exec(compile(code, "docs/reference/python.md", "exec"), names)
         assert capsys.readouterr().out == said, code
 
 
 def test_the_first_example_works(tmp_path, monkeypatch):
     shutil.copy(SOURCE / "scenes/homework/4.toml", tmp_path / "scene.toml")
     monkeypatch.chdir(tmp_path)
-    page = re.search(r"```python\n(.*?)```", (SOURCE / "docs/usage.md").read_text(), re.S).group(1)
+    page = re.search(r"```python\n(.*?)```", (SOURCE / "docs/reference/command-line.md").read_text(), re.S).group(1)
     module = textwrap.dedent(re.search(r"    import drape\n.*?\n\n(?=\w)", drape.__doc__, re.S).group(0))
     for code in (page, module):
         names = {}

@@ -128,7 +128,7 @@ def test_the_notebook_runs(tmp_path):
     nbclient = pytest.importorskip("nbclient", reason="apt-get install python3-nbclient python3-ipykernel")
     nbformat = pytest.importorskip("nbformat")
     pytest.importorskip("ipykernel")
-    notebook = nbformat.read(SOURCE / "docs/notebook.ipynb", as_version=4)
+    notebook = nbformat.read(SOURCE / "docs/cookbook/notebook.ipynb", as_version=4)
     nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
     shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
     assert sum("image/png" in output.get("data", {}) for output in shown) >= 2

@@ -63,7 +63,7 @@ TEST_P(EvenGrid, OfCellsTooLongHasNoSpringThatPushes) {
   }
 }
 
-// The table in docs/scene-format.md.
+// The table in docs/reference/scene-format.md.
 TEST(DiagonalGrid, IsThreeTimesAsStiffAcrossItsDiagonals) {
   Cloth cloth = grid_cloth(GridPattern::diagonal, 1);
   stiffen_by_area(modulus, cloth);

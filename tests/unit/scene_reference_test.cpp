@@ -14,7 +14,7 @@
 namespace drape {
 namespace {
 
-constexpr const char* page_file = DRAPE_SOURCE_DIR "/docs/scene-format.md";
+constexpr const char* page_file = DRAPE_SOURCE_DIR "/docs/reference/scene-format.md";
 
 /// Expects the page's part between the markers of this name to equal the program's text.
 void expect_page(const std::string& name, const std::string& expected) {
