@@ -1,6 +1,7 @@
 #include "scene/tables.hpp"
 
 #include <fmt/format.h>
+#include <cmath>
 
 #include "drape/scene/scene.hpp"
 #include "scene/values.hpp"
@@ -87,9 +88,8 @@ Keys time_keys(Scene& scene) {
   Keys keys;
   keys.add("step", &scene.simulation.step, "s", "Length of a time step.").above(0);
   keys.add("accuracy", &scene.simulation.accuracy, "m",
-           "Limit on the error that a step may add to any vertex. Each step is cut into as many equal substeps as "
-           "needed, of velocity Verlet or SDIRK2; `scheme`, `tolerance` and `stop` follow from it, see "
-           "[accuracy.md](../notes/accuracy.md#asking-for-an-accuracy).")
+           "Limit on the error that a step may add to any vertex. Steps are cut into substeps; `scheme`, `tolerance` "
+           "and `stop` follow, see [accuracy](../notes/accuracy.md#asking-for-an-accuracy).")
       .above(0);
   keys.add("duration", &scene.duration, "s", "Length of the scene, rounded to whole steps.").at_least(0);
   return keys;
@@ -97,42 +97,37 @@ Keys time_keys(Scene& scene) {
 
 Keys integrator_keys(IntegratorSettings& integrator) {
   Keys keys;
-  keys.choice(
-      "method", integrator.method, {method_names.begin(), method_names.end()},
-      "How a step is computed. Auto: by verlet in substeps, or quasi-newton where that is the cheaper one, see "
-      "[accuracy.md](../notes/accuracy.md). Explicit: semi-implicit (symplectic Euler) and verlet (velocity Verlet). "
-      "Implicit: implicit (Newton's method), liu13 (the local/global method of Liu et al. 2013) and "
-      "quasi-newton (L-BFGS started from liu13's matrix).");
+  keys.choice("method", integrator.method, {method_names.begin(), method_names.end()},
+              "How a step is computed. Auto: verlet in substeps, or quasi-newton where that is cheaper, see "
+              "[methods](command-line.md#methods). Explicit: semi-implicit, verlet. Implicit: implicit (Newton), "
+              "liu13, quasi-newton.");
   keys.choice("scheme", integrator.scheme, {scheme_names.begin(), scheme_names.end()},
               "Time integration of the implicit methods: backward Euler, first-order, or SDIRK2 (Alexander 1977), "
-              "second-order with two stages per step.");
-  keys.choice(
-      "stop", integrator.stop, {stopping_rule_names.begin(), stopping_rule_names.end()},
-      "What must fall below `tolerance` to end a step: the norm of the change of the positions in an iteration "
-      "(m), the norm of the unbalanced force (N), or the estimated distance of the worst vertex from the exact "
-      "solution (m, see [accuracy.md](../notes/accuracy.md#stopping-at-an-error)). Default: change if a `tolerance` is "
-      "given, otherwise error. Implicit methods only, like the next two keys.");
-  keys.add(
-          "tolerance", &integrator.tolerance, "m or N",
-          "See `stop`. Default: 1e-3 for change and gradient; for error a tenth of the error that the time step itself "
-          "makes, estimated in every step, see [accuracy.md](../notes/accuracy.md#the-default-tolerance).")
+              "second-order.");
+  keys.choice("stop", integrator.stop, {stopping_rule_names.begin(), stopping_rule_names.end()},
+              "What must fall below `tolerance` to end a step: the norm of an iteration's change (m), of the "
+              "unbalanced force (N), or the [estimated error](../notes/accuracy.md#stopping-at-an-error) (m). Default: "
+              "change if a `tolerance` is given, otherwise error. Implicit methods only, like the next two keys.");
+  keys.add("tolerance", &integrator.tolerance, "m or N",
+           "See `stop`. Default: 1e-3 for change and gradient; for error [a tenth of the time step's "
+           "own](../notes/accuracy.md#the-default-tolerance).")
       .above(0);
   keys.add("max_iterations", &integrator.max_iterations, "",
            "Limit on the iterations of a step. Default: 20 for implicit, 100 for liu13, 500 for quasi-newton; 2000 for "
-           "implicit and quasi-newton when a step stops at an error.")
+           "implicit and quasi-newton with `stop = \"error\"`.")
       .at_least(1);
   keys.choice("linear_solver", integrator.linear_solver, {"automatic", "cholesky", "conjugate-gradients"},
-              "How the method implicit solves Newton's equations: by a sparse Cholesky factorisation, or by conjugate "
-              "gradients preconditioned with liu13's matrix. Automatic: by conjugate gradients until those have taken "
-              "as many operations as a factorisation would, and then by that for the rest of the step.");
+              "How implicit solves Newton's equations: by sparse Cholesky factorisation, or by conjugate gradients "
+              "preconditioned with liu13's matrix. Automatic: by conjugate gradients until those have cost as much as "
+              "a factorisation, then by that.");
   keys.add("substeps", &integrator.substeps, "",
            "Equal substeps that an explicit method cuts each step into. Default: 1; with method auto as many as are "
            "stable.")
       .at_least(1)
       .at_most(most_substeps);
   keys.add("allow_unstable", &integrator.allow_unstable, "",
-           "Runs scenes that are otherwise rejected: an explicit method beyond its largest safe step, or an implicit "
-           "one where double precision cannot represent the inertia beside the springs.");
+           "Runs scenes that are otherwise rejected: explicit steps beyond the safe one, or implicit ones beyond "
+           "double precision.");
   return keys;
 }
 
@@ -145,22 +140,19 @@ Keys camera_keys(Camera& camera) {
   keys.add("field_of_view", &camera.field_of_view, "degrees", "Vertical field of view.").at_least(1).at_most(170);
   keys.add("azimuth", &camera.azimuth, "degrees",
            "Viewing direction of a camera without a position: the angle in the xy plane, from +x towards +y. Default: "
-           "the direction that shows most of the cloth, the spheres and the motion, see [camera.md](camera.md).");
+           "the [best of sixteen](camera.md#viewing-direction).");
   keys.add("elevation", &camera.elevation, "degrees", "Angle above the xy plane, with the same default.")
       .at_least(-90)
       .at_most(90);
   keys.add("margin", &camera.margin, "", "Free border around the motion, as a fraction of the picture.")
       .at_least(0)
       .at_most(0.45);
-  keys.add("follow", &camera.follow, "",
-           "Follows the motion smoothly and as closely as possible. Otherwise the camera stays where the whole motion "
-           "is in view.");
-  keys.add(
-      "orbit", &camera.orbit, "degrees",
-      "Angle by which the camera circles its target during the film: 360 is a turntable that loops without a break.");
+  keys.add("follow", &camera.follow, "", "Follows the motion smoothly and as closely as possible.");
+  keys.add("orbit", &camera.orbit, "degrees",
+           "Angle by which the camera circles its target during the film: 360 loops without a break.");
   keys.add("outside", &camera.outside, "",
-           "Fraction of the frames that may reach beyond a side of the picture: 0.05 frames what matters of a motion "
-           "with a few wide swings. For a camera that is placed automatically and stays.")
+           "Fraction of the frames that may reach beyond a side of the picture, for a camera that is placed "
+           "automatically and stays.")
       .at_least(0)
       .at_most(0.5);
   return keys;
@@ -171,16 +163,13 @@ Keys look_keys(Look& look, std::optional<Quality>& quality) {
   keys.add("texture", &look.texture, "", "Picture on the cloth. Needs a mesh with texture coordinates.");
   keys.add("color", &look.color, "", "Colour of the cloth without a texture.");
   keys.choice("color_by", look.color_by, {"stretch", "speed", "curvature"},
-              "Colours the cloth by this quantity instead of texture and color, with a colour bar below the picture, "
-              "see [captions.md](captions.md#colours). `drape check` ignores it.");
+              "Colours the cloth by this quantity, with a colour bar below the picture, see "
+              "[captions.md](captions.md#colours). `drape check` ignores it.");
   keys.add("color_limit", &look.color_limit, "1, m/s or 1/m",
-           "Value of the last of these colours; the first is 0. A stretch of 0.1 is 10 %. Default: a value that 95 % "
-           "of the cloth stays below throughout the motion.")
+           "Value of the last of these colours; the first is 0. Default: a value that 95 % of the cloth stays below.")
       .above(0);
   keys.add("anisotropy", &look.anisotropy, "",
-           "Anisotropic filtering of the texture, where OpenGL supports it; 1 is off. In software rendering a frame "
-           "takes "
-           "more than twice as long.")
+           "Anisotropic filtering of the texture, where OpenGL supports it; 1 is off. Takes time in software.")
       .at_least(1)
       .at_most(16);
   keys.add("mesh_lines", &look.mesh_lines, "", "Draws the edges of the triangles.");
@@ -209,14 +198,11 @@ Keys look_keys(Look& look, std::optional<Quality>& quality) {
   keys.add("key_elevation", &look.key_elevation, "degrees", "Angle of the key light above the xy plane, likewise.")
       .at_least(-90)
       .at_most(90);
-  keys.add("backdrop", &look.backdrop, "",
-           "A floor below the motion, in `ground_color`, for a scene without a ground. It only shows shadows.");
+  keys.add("backdrop", &look.backdrop, "", "A floor below the motion, in `ground_color`, that only shows shadows.");
   keys.add("samples", &look.samples, "", "Antialiasing samples per pixel: 1 (off), 2 or 4.").at_least(1).at_most(4);
   keys.choice("quality", quality, {"draft", "film", "print"},
-              "Everything that trades time for detail, relative to what the scene says: draft halves the film's size "
-              "and rate, and a grid's cells along both sides, and solves coarsely, film changes nothing, print doubles "
-              "the size and filters textures, see "
-              "[command-line.md](command-line.md#quality).");
+              "Everything that trades time for detail: draft halves size, rate and a grid's cells, print doubles the "
+              "size, see [command-line.md](command-line.md#quality).");
   return keys;
 }
 
@@ -263,15 +249,13 @@ Keys check_keys(CheckSettings& check) {
       .at_least(16)
       .at_most(8192);
   keys.add("window_time", &check.window_time, "s",
-           "Length of a window of motion, after which the motion restarts from a golden state. All of the motion is "
-           "compared.")
+           "Length of a window of motion, after which the motion restarts from a golden state.")
       .above(0);
   keys.add("motion_tolerance", &check.motion_tolerance, "m",
            "Largest accepted distance of a vertex from its golden position. With 0 the bits must be the same.")
       .at_least(0);
   keys.add("channel_limit", &check.limits.channel, "1/255",
-           "A picture still counts as the same, except for rounding, if no pixel differs by more than this in any "
-           "channel…")
+           "A picture is noise if no pixel differs by more than this in any channel…")
       .at_least(0)
       .at_most(255);
   keys.add("pixel_limit", &check.limits.pixels, "", "…and no more than this fraction of the pixels differs at all…")
@@ -384,9 +368,16 @@ std::vector<std::string> values_of(const Key::Target& target) {
   return {};
 }
 
+std::string range_text(const Key& key) {
+  if (std::isfinite(key.minimum) && std::isfinite(key.maximum) && !key.minimum_excluded) {
+    return fmt::format("{} to {}", key.minimum, key.maximum);
+  }
+  return Range{key.minimum, key.maximum, key.minimum_excluded}.text();
+}
+
 KeyText text_of(const Key& key) {
   const std::string value = std::visit(Form{}, key.target);
-  const std::string range = Range{key.minimum, key.maximum, key.minimum_excluded}.text();
+  const std::string range = range_text(key);
   return {.name = key.name,
           .form = range.empty() ? value : value + ", " + range,
           .values = values_of(key.target),
@@ -409,14 +400,15 @@ std::string row(const KeyText& key) {
   for (std::size_t i = 0; i < key.alternatives.size(); ++i) {
     initial += fmt::format("{} `{}`", i == 0 ? " without" : " or", key.alternatives[i]);
   }
-  return fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, key.form, key.unit, initial, key.help);
+  const std::string unit = key.unit.empty() ? "" : " [" + key.unit + "]";
+  return fmt::format("| `{}` | {}{} | {} | {} |\n", key.name, key.form, unit, initial, key.help);
 }
 
 std::string section(const TableText& table) {
   std::string text = table.repeatable ? fmt::format("### `[{0}]` or several `[[{0}]]`\n\n", table.name)
                                       : fmt::format("### `[{}]`\n\n", table.name);
   if (!table.help.empty()) text += table.help + "\n\n";
-  text += "| key | value | unit | default | meaning |\n|---|---|---|---|---|\n";
+  text += "| key | value [unit] | default | meaning |\n|---|---|---|---|\n";
   for (const KeyText& key : table.keys) text += row(key);
   return text + "\n";
 }

@@ -27,6 +27,7 @@ TEST(Gallery, SaysWhichPictureIsStaleAndWhy) {
   for (const char* part : {"script", "docs/images/accuracy", "scenes/homework", "scenes/showcase"}) {
     fs::create_directories(folder.path() / part);
   }
+  fs::copy(repository / "docs/cookbook", folder.path() / "docs/cookbook");
   fs::copy(repository / "script/gallery", folder.path() / "script");
   fs::copy(repository / "docs/images/made-from.txt", folder.path() / "docs/images");
   fs::copy(repository / "docs/images/accuracy/3-solve.svg", folder.path() / "docs/images/accuracy");
@@ -41,11 +42,16 @@ TEST(Gallery, SaysWhichPictureIsStaleAndWhy) {
   folder.write("scenes/showcase/air.toml",
                test::content(repository / "scenes/showcase/air.toml") + "\n[effects.damping]\n");
   fs::remove(*fs::directory_iterator(folder.path() / "scenes/showcase/ground.golden/frames"));
+  const auto recipe = [&](const std::string& name) { return "docs/cookbook/" + name + ".md"; };
+  folder.write(recipe("flag"), test::content(repository / recipe("flag")) + "\n```\ndrape render flag.toml\n```\n");
+  folder.write(recipe("curtain"), test::content(repository / recipe("curtain")) + "\nAnother sentence.\n");
   const auto stale = check();
   EXPECT_EQ(stale.code, 1);
   EXPECT_NE(stale.text.find("'air' is stale, because of scenes/showcase/air.toml "), std::string::npos) << stale.text;
   EXPECT_NE(stale.text.find("'ground' is stale, because of scenes/showcase/ground.golden "), std::string::npos);
+  EXPECT_NE(stale.text.find("'recipe-flag' is stale, because of docs/cookbook/flag.md "), std::string::npos);
   EXPECT_EQ(stale.text.find("hero"), std::string::npos) << stale.text;
+  EXPECT_EQ(stale.text.find("curtain"), std::string::npos) << stale.text;
 }
 
 }  // namespace

@@ -80,7 +80,8 @@ std::set<std::string> anchors_of(const fs::path& page) {
 
 TEST(Pages, HaveLinksThatLeadSomewhere) {
   auto pages = test::pages_of(source);
-  for (const char* other : {"ARCHITECTURE.md", "CONTRIBUTING.md", "bench/README.md"}) pages.emplace_back(other);
+  for (const char* other : {"ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "bench/README.md"})
+    pages.emplace_back(other);
   for (const fs::path& page : pages) {
     for (const std::string& link : targets_of(source / page)) {
       if (link.find(':') != std::string::npos) continue;

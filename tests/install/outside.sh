@@ -21,13 +21,13 @@ expect() { # FOUND EXPECTED
   case $1 in $2) ;; *) echo "outside.sh: expected $2, found $1" && exit 1 ;; esac
 }
 
-# The project of docs/reference/library.md: its files are the blocks after a comment with their name.
+# The project of docs/cookbook/library.md: its files are the blocks after a comment with their name.
 mkdir "$scratch/page"
 for file in CMakeLists.txt main.cpp; do
-  sed -n "/^<!-- file: $file -->\$/,/^\`\`\`\$/p" "$source/docs/reference/library.md" | sed '1,2d;$d' >"$scratch/page/$file"
+  sed -n "/^<!-- file: $file -->\$/,/^\`\`\`\$/p" "$source/docs/cookbook/library.md" | sed '1,2d;$d' >"$scratch/page/$file"
 done
 project mine "$scratch/page"
-expect "$("$scratch/mine/mine")" '-* m'
+expect "$(cd "$scratch/mine" && ./mine)" '-* m'
 
 project cloth
 expect "$("$scratch/cloth/cloth")" '1 s, lowest at -*'

@@ -1,4 +1,4 @@
-// The Python reader of motion files in docs/reference/motion-file.md reads the same data as drape.
+// The Python reader of motion files, docs/reference/motion_reader.py, reads the same data as drape.
 
 #include <gtest/gtest.h>
 
@@ -44,11 +44,9 @@ std::string expected_bytes(MotionReader& motion, const Mesh& mesh) {
 TEST(PagesReader, ReadsWhatDrapeDoes) {
   if (std::getenv("DRAPE_INTEROP") == nullptr) GTEST_SKIP() << "script/interop installs numpy and runs this";
   const SceneFolder folder;
-  const std::string page = content(source / "docs/reference/motion-file.md"), fence = "```python\n";
-  const std::size_t begin = page.find(fence) + fence.size();
   folder.write(
       "reader.py",
-      page.substr(begin, page.find("```", begin) - begin) +
+      content(source / "docs/reference/motion_reader.py") +
           "import os, sys\nm = Motion(sys.argv[1])\nout = open(os.path.dirname(sys.argv[1]) + '/read.bin', 'wb')\n"
           "for step, x, v in m:\n  out.write(struct.pack('<q', step) + x.T.tobytes() + v.T.tobytes())\n"
           "out.write(m.rows()[:, :4].astype('<f8').tobytes())\n"
