@@ -200,13 +200,14 @@ void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& c
       ->check(number_in(positive));
   list(sub->add_option("--accuracies", options.accuracies, "Requested accuracies in m: A1,A2; default 1e-2,1e-3,1e-4"))
       ->check(number_in(positive));
-  list(sub->add_option("--parts", arguments->parts,
-                       "What to measure: solve (errors by tolerance), order (by time step), asked ([time] accuracy and "
-                       "fixed steps), estimates (how true what these steps say of their errors is), films (how "
-                       "different they look); default all"));
+  list(
+      sub->add_option("--parts", arguments->parts,
+                      "Parts to measure: solve (errors by tolerance), order (by time step), asked ([time] accuracy and "
+                      "fixed steps), estimates (how true what these steps say of their errors is), films (how "
+                      "different they look); default all"));
   list(sub->add_option(
       "--animate", arguments->animations,
-      "What varies between the panels of the animations: tolerances (default), methods, steps, or none"));
+      "Difference between the panels of the animations: tolerances (default), methods, steps, or none"));
   add_backend_option(*sub, options.backend);
   sub->add_option("--runs", options.runs, runs_help)->check(whole_number_in({1, 1000}));
   add_study_files(*sub, arguments->files);

@@ -282,8 +282,7 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
       ->allow_extra_args(false);
   sub->add_option("--frames", arguments->frames, "Compare only these golden frames: A,B,C");
   sub->add_flag("--end-to-end", arguments->end_to_end, "Also run and draw the whole motion");
-  sub->add_option("--update", arguments->update,
-                  "Which goldens to write; default missing, and such a check still fails")
+  sub->add_option("--update", arguments->update, "Goldens to write; default missing, and such a check still fails")
       ->type_name("all|missing|none");
   add_backend_option(*sub, arguments->backend);
   sub->add_option("--report", arguments->report, "Folder for the report (HTML, JSON, JUnit); default out/check")

@@ -140,7 +140,7 @@ void add_file_limit(CLI::App& command, std::string& max_size, std::string& keep)
   command.add_option("--max-size", max_size,
                      "Size limit for films, such as 5MB (or kB, GB, kiB, MiB, GiB): makes pictures smaller, then "
                      "fewer, until the film fits");
-  command.add_option("--keep", keep, "What --max-size keeps, at the cost of the other: size or rate")
+  command.add_option("--keep", keep, "Quantity that --max-size keeps, at the cost of the other: size or rate")
       ->check(CLI::IsMember({"size", "rate"}));
 }
 

@@ -30,8 +30,8 @@ class Descriptor {
   int number_ = -1;
 };
 
-// Encoding of a motion file's parts as bytes, see docs/motion-file.md. Invalid bytes throw a std::invalid_argument
-// whose text completes "the file …".
+// Encoding of a motion file's parts as bytes, see docs/reference/motion-file.md. Invalid bytes throw a
+// std::invalid_argument whose text completes "the file …".
 
 /// Compresses bytes: their number, followed by a zlib stream.
 std::string pack(std::string_view bytes);

@@ -9,7 +9,7 @@
 namespace drape {
 
 /// Lossless codec from states of a motion to bytes: it stores each state as its difference from a prediction by
-/// earlier states. docs/motion-file.md describes the format for readers.
+/// earlier states. docs/reference/motion-file.md describes the format for readers.
 class StateCodec {
  public:
   /// @param vertices number of vertices of the cloth

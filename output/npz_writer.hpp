@@ -63,8 +63,8 @@ class NpyArray {
   std::uint32_t crc32_ = 0;  // of the numbers
 };
 
-/// Writes the motion as an archive of numpy arrays, listed in docs/outputs.md. Its memory does not grow with the
-/// motion: arrays wait on disk, because an archive stores them one after the other.
+/// Writes the motion as an archive of numpy arrays, listed in docs/reference/outputs.md. Its memory does not grow with
+/// the motion: arrays wait on disk, because an archive stores them one after the other.
 class NpzWriter final : public MotionWriter {
  public:
   NpzWriter(const std::filesystem::path& file, const FilmInfo& film);

@@ -72,7 +72,8 @@ using FrameMaker = std::function<std::function<std::string(const Item&)>(const F
 /// Marks a format of all steps instead of frames, written by the run itself, see run/motion_recorder.hpp.
 struct OfSteps {};
 
-/// An output format. The command line, its messages, `drape doctor` and docs/outputs.md take their texts from it.
+/// An output format. The command line, its messages, `drape doctor` and docs/reference/outputs.md take their texts from
+/// it.
 struct OutputFormat {
   std::string extension;  ///< ".gif"
   std::string help;       ///< description of a file: "an animation that repeats for ever"
@@ -105,7 +106,7 @@ enum class FormatKinds { all, drawn, undrawn };
 /// Returns the help for -o, one line per format of these kinds.
 std::string output_help(FormatKinds kinds);
 
-/// Returns the table of docs/outputs.md.
+/// Returns the table of docs/reference/outputs.md.
 std::string output_reference();
 
 using AnySink = std::variant<std::unique_ptr<Encoder>, std::unique_ptr<MotionWriter>>;

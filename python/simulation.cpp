@@ -279,18 +279,18 @@ void SceneSimulation::restore(const State& checkpoint) {
 void add_simulation(py::module_& module) {
   py::class_<StepReport>(module, "StepReport", "How a step was computed.")
       .def_readonly("iterations", &StepReport::iterations, "Linear solves; 0 for a method that has none.")
-      .def_readonly("converged", &StepReport::converged, "Whether the stopping rule was met within max_iterations.")
+      .def_readonly("converged", &StepReport::converged, "True if the stopping rule was met within max_iterations.")
       .def_readonly("kept", &StepReport::kept, "The part of the way to the last iterate that the step went, 0 to 1.")
-      .def_readonly("substeps", &StepReport::substeps, "That the step was cut into.")
+      .def_readonly("substeps", &StepReport::substeps, "Number of substeps of the step.")
       .def_readonly("estimate", &StepReport::estimate,
-                    "Of the error that the step has added [m]; None unless the scene asks for an accuracy.")
+                    "Estimated error that the step has added [m]; None unless the scene asks for an accuracy.")
       .def("__repr__", [](const StepReport& r) {
         return fmt::format("StepReport(iterations={}, converged={})", r.iterations, r.converged ? "True" : "False");
       });
   py::class_<Energies>(module, "Energies", "The energies of a cloth at one moment [J].")
       .def_readonly("kinetic", &Energies::kinetic, "Σ m v²/2 [J]")
       .def_readonly("gravity", &Energies::gravity, "−Σ m g·x [J]")
-      .def_readonly("elastic", &Energies::elastic, "Of all springs and of bending [J].")
+      .def_readonly("elastic", &Energies::elastic, "Energy of all springs and of bending [J].")
       .def_property_readonly("total", &Energies::total, "The sum of the three [J].")
       .def("__repr__", [](const Energies& e) {
         return fmt::format("Energies(kinetic={}, gravity={}, elastic={})", e.kinetic, e.gravity, e.elastic);
@@ -298,13 +298,13 @@ void add_simulation(py::module_& module) {
   const auto made = [](const State& state) -> const State& { return state.require_made(), state; };
   py::class_<State>(module, "State", "All that the rest of a motion depends on, to the bit. A copy.")
       .def(py::init(&make_state), py::arg("positions"), py::arg("velocities"), py::arg("step") = 0,
-           "Of positions n×3 [m] and velocities n×3 [m/s] after a number of steps.")
+           "Makes a state of positions n×3 [m] and velocities n×3 [m/s] after a number of steps.")
       .def_property_readonly(
           "positions", [=](const State& s) { return copied(made(s).state.x); }, "n×3 [m]")
       .def_property_readonly(
           "velocities", [=](const State& s) { return copied(made(s).state.v); }, "n×3 [m/s]")
       .def_property_readonly(
-          "step", [=](const State& s) { return made(s).state.step; }, "How many steps it is after.")
+          "step", [=](const State& s) { return made(s).state.step; }, "Number of steps before it.")
       .def_property_readonly(
           "hash", [=](const State& s) { return hash_of(made(s).state); }, "As Simulation.hash.");
 
@@ -337,10 +337,10 @@ void add_simulation(py::module_& module) {
           "‖∇g‖ where the last step ended [N]; 0 for a method that minimises nothing.")
       .def_property_readonly(
           "error", [](Self& self) { return self.with([](auto& s) { return s.error(); }); },
-          "How far the worst vertex is from the exact solution of the last step, estimated [m].")
+          "Estimated distance of the worst vertex from the exact solution of the last step [m].")
       .def_property_readonly(
           "hash", [](Self& self) { return self.with([](auto& s) { return s.hash(); }); },
-          "Of step, positions and velocities to the bit: 64 bits, the same on every run and machine of a build.")
+          "Hash of step, positions and velocities to the bit: 64 bits, the same on every run and machine of a build.")
       .def(
           "state", [](Self& self) { return self.with([](auto& s) { return State(s.checkpoint()); }); },
           "A copy of all that the rest of the motion depends on.")
@@ -349,9 +349,9 @@ void add_simulation(py::module_& module) {
           "step_size", [=](Self& self) { return settings(self).step; }, "h [s]")
       .def_property_readonly(
           "step_count", [](Self& self) { return self.scene().step_count(); },
-          "How many steps cover the scene's duration.")
+          "Number of steps that cover the scene's duration.")
       .def_property_readonly(
-          "duration", [](Self& self) { return self.scene().duration; }, "Of the scene [s].")
+          "duration", [](Self& self) { return self.scene().duration; }, "Duration of the scene [s].")
       .def_property_readonly(
           "method", [=](Self& self) { return step_method_name(settings(self).integrator.step_method()); },
           "\"liu13\", \"implicit-sdirk2\", …")
@@ -379,7 +379,7 @@ void add_simulation(py::module_& module) {
           [=](Self& self) {
             return py::array_t<double>(settings(self).cloth.masses.size(), settings(self).cloth.masses.data());
           },
-          "Of the vertices, n [kg]. A copy.")
+          "Masses of the vertices, n [kg]. A copy.")
       .def_property_readonly(
           "pins", [](Self& self) { return self.with([](auto& s) { return s.cloth().pins; }); },
           "The vertices that do not move by themselves, as of the last step.")

@@ -27,7 +27,7 @@ Shard parse_shard(const std::string& text);
 std::vector<std::size_t> runs_of_shard(const std::vector<double>& costs, const Shard& shard);
 
 /// Limit of the automatic thread count. Beyond it loop overhead grows and memory bandwidth is exhausted
-/// (docs/performance.md).
+/// (docs/notes/performance.md).
 inline constexpr int most_automatic_threads = 16;
 
 /// Returns the settings with the number of threads for the steps of a run.

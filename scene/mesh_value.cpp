@@ -405,7 +405,7 @@ Keys mesh_shape_keys(ParametricMesh& shape) {
           .at_most(most);
       break;
     case Kind::tube:
-      keys.add("radius", &shape.radius, "m", "Of its upper end.").above(0);
+      keys.add("radius", &shape.radius, "m", "Radius of its upper end.").above(0);
       keys.add("hem", &shape.hem, "m", "Radius of its lower end. Default: the same.").above(0);
       keys.add("length", &shape.length, "m", "Along z.").above(0);
       keys.add("around", &shape.around, "", "Cells around its axis; along it as many as make them square.")

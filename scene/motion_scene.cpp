@@ -103,7 +103,7 @@ TableType named_motion_table(NamedMotion& motion, const TomlValue*& body) {
   TableType table{.name = "cloth", .help = "A motion that is read instead of computed.", .keys = {}};
   Keys& keys = table.keys;
   keys.add("motion", &motion.motion, "", "Its file, or a sequence of files.").must_be_given();
-  keys.add("body", CustomValue{"path, or [path, …]", &body}, "", "What the cloth may touch, in the same formats.");
+  keys.add("body", CustomValue{"path, or [path, …]", &body}, "", "Obstacles, in the same formats.");
   keys.add("fps", &motion.fps, "1/s", "Frames per second.").above(0);
   keys.choice("up", motion.y_up, {"z", "y"}, "The axis that points up in the files.");
   keys.add("scale", &motion.scale, "m", "The length of a unit of the files.").above(0);

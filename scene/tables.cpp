@@ -89,7 +89,7 @@ Keys time_keys(Scene& scene) {
   keys.add("step", &scene.simulation.step, "s", "Length of a time step.").above(0);
   keys.add("accuracy", &scene.simulation.accuracy, "m",
            "Limit on the error that a step may add to any vertex. Steps are cut into substeps; `scheme`, `tolerance` "
-           "and `stop` follow, see [accuracy](../notes/accuracy.md#asking-for-an-accuracy).")
+           "and `stop` follow, see [accuracy.md](../notes/accuracy.md#asking-for-an-accuracy).")
       .above(0);
   keys.add("duration", &scene.duration, "s", "Length of the scene, rounded to whole steps.").at_least(0);
   return keys;
@@ -97,15 +97,16 @@ Keys time_keys(Scene& scene) {
 
 Keys integrator_keys(IntegratorSettings& integrator) {
   Keys keys;
-  keys.choice("method", integrator.method, {method_names.begin(), method_names.end()},
-              "How a step is computed. Auto: verlet in substeps, or quasi-newton where that is cheaper, see "
-              "[methods](command-line.md#methods). Explicit: semi-implicit, verlet. Implicit: implicit (Newton), "
-              "liu13, quasi-newton.");
+  keys.choice(
+      "method", integrator.method, {method_names.begin(), method_names.end()},
+      "How a step is computed. Auto: verlet in substeps, or quasi-newton where that is cheaper, see "
+      "[command-line.md](command-line.md#methods). Explicit: semi-implicit, verlet. Implicit: implicit (Newton), "
+      "liu13, quasi-newton.");
   keys.choice("scheme", integrator.scheme, {scheme_names.begin(), scheme_names.end()},
               "Time integration of the implicit methods: backward Euler, first-order, or SDIRK2 (Alexander 1977), "
               "second-order.");
   keys.choice("stop", integrator.stop, {stopping_rule_names.begin(), stopping_rule_names.end()},
-              "What must fall below `tolerance` to end a step: the norm of an iteration's change (m), of the "
+              "Quantity that must fall below `tolerance` to end a step: the norm of an iteration's change (m), of the "
               "unbalanced force (N), or the [estimated error](../notes/accuracy.md#stopping-at-an-error) (m). Default: "
               "change if a `tolerance` is given, otherwise error. Implicit methods only, like the next two keys.");
   keys.add("tolerance", &integrator.tolerance, "m or N",
@@ -193,7 +194,7 @@ Keys look_keys(Look& look, std::optional<Quality>& quality) {
       .at_least(0);
   keys.add("exposure", &look.exposure, "", "Factor on all light.").above(0).at_most(100);
   keys.add("key_azimuth", &look.key_azimuth, "degrees",
-           "Where the key light comes from: the angle in the xy plane, from +x towards +y. Default: it stands to the "
+           "Direction of the key light: the angle in the xy plane, from +x towards +y. Default: it stands to the "
            "camera's upper left and goes with it.");
   keys.add("key_elevation", &look.key_elevation, "degrees", "Angle of the key light above the xy plane, likewise.")
       .at_least(-90)
@@ -227,7 +228,7 @@ Keys caption_keys(CaptionSettings& caption) {
   keys.add("color", &caption.color, "",
            "Colour of the letters. Default: black or white, whichever is more legible on the background.");
   keys.choice("backing", caption.backing, {"none", "halo", "panel"},
-              "What is drawn behind the letters, in black or white, to keep them legible: nothing, a soft halo, or a "
+              "Background of the letters, in black or white, to keep them legible: nothing, a soft halo, or a "
               "rectangle.");
   return keys;
 }
@@ -394,22 +395,26 @@ TableText text_of(const TableType& table) {
   return text;
 }
 
-std::string row(const KeyText& key) {
-  std::string initial = key.initial.empty() ? "–" : "`" + key.initial + "`";
-  if (key.required) initial = "**required**";
-  for (std::size_t i = 0; i < key.alternatives.size(); ++i) {
-    initial += fmt::format("{} `{}`", i == 0 ? " without" : " or", key.alternatives[i]);
+/// Returns a key's line: its name, form, unit, default and meaning.
+std::string item(const KeyText& key) {
+  std::string form = key.form;
+  if (!key.unit.empty()) form += " [" + key.unit + "]";
+  if (key.required || !key.alternatives.empty()) {
+    form += ", **required**";
+  } else if (!key.initial.empty()) {
+    form += ", default `" + key.initial + "`";
   }
-  const std::string unit = key.unit.empty() ? "" : " [" + key.unit + "]";
-  return fmt::format("| `{}` | {}{} | {} | {} |\n", key.name, key.form, unit, initial, key.help);
+  for (std::size_t i = 0; i < key.alternatives.size(); ++i) {
+    form += fmt::format("{} `{}`", i == 0 ? " without" : " or", key.alternatives[i]);
+  }
+  return fmt::format("- `{}`: {}. {}\n", key.name, form, key.help);
 }
 
 std::string section(const TableText& table) {
   std::string text = table.repeatable ? fmt::format("### `[{0}]` or several `[[{0}]]`\n\n", table.name)
                                       : fmt::format("### `[{}]`\n\n", table.name);
   if (!table.help.empty()) text += table.help + "\n\n";
-  text += "| key | value [unit] | default | meaning |\n|---|---|---|---|\n";
-  for (const KeyText& key : table.keys) text += row(key);
+  for (const KeyText& key : table.keys) text += item(key);
   return text + "\n";
 }
 

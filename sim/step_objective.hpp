@@ -57,7 +57,7 @@ class StepObjective {
 
   /// Returns an estimate of the worst vertex's distance from the minimum at this gradient [m]. For convex g, every
   /// Hessian is at least the inertia, so ‖x − x*‖_M ≤ ‖M⁻¹∇g‖_M h². Per vertex, h²‖∇gᵢ‖/mᵢ is an estimate;
-  /// docs/accuracy.md shows how good.
+  /// docs/notes/accuracy.md shows how good.
   [[nodiscard]] double error_bound(const Vertices& gradient) const;
 
   /// Returns the rounding error of error_bound() at the minimum [m]. Positions have the error ε‖x‖, and the springs'

@@ -118,7 +118,7 @@ def navigation(folder, docs, scenes):
     def entries(pages, indent):
         return "".join(f'{indent}- "{title_of(p, folder)}": {p}\n' for p in pages if (folder / p).exists())
 
-    text = '  - "drape": README.md\n  - "Gallery": gallery.md\n'
+    text = '  - "drape": README.md\n  - "All pages": docs/README.md\n  - "Gallery": gallery.md\n'
     for name, title in SECTIONS.items():
         own = Path("docs") / name
         listed = [Path(os.path.normpath(index.parent / target))

@@ -71,7 +71,7 @@ std::optional<StudyPicture> animate_accuracy(const SceneAccuracy& accuracy, Anim
 inline constexpr const char* runs_name = "runs.csv";
 
 /// Returns all measurements of a study, as RunsWriter writes them. read_runs() restores the study, which gives the same
-/// report. The format is described in docs/study-data.md.
+/// report. The format is described in docs/reference/study-data.md.
 std::string runs_csv(const AccuracyStudy& study);
 
 /// Reads a study from the folder of its results, with the animations.

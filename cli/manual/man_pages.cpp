@@ -254,9 +254,9 @@ ManPage scene_page(const std::vector<TableText>& tables) {
     if (!table.help.empty()) text += from_markdown(table.help) + "\n";
     for (const KeyText& key : table.keys) text += key_entry(key);
   }
-  return {"drape-scene.5", text + ".SH SEE ALSO\n" + reference("drape", 1) + ",\n" + reference("drape-render", 1) +
-                               "\n.PP\nWhat the values mean is explained, with figures, in the files of\n"
-                               "\\fI/usr/share/doc/drape\\fR.\n"};
+  return {"drape-scene.5",
+          text + ".SH SEE ALSO\n" + reference("drape", 1) + ",\n" + reference("drape-render", 1) +
+              "\n.PP\nThe pages in \\fI/usr/share/doc/drape/docs\\fR explain the values, with figures.\n"};
 }
 
 }  // namespace drape

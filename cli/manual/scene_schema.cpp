@@ -243,7 +243,7 @@ Json color_schema() {
 /// Returns the schema of the table for `drape sweep`.
 Json sweep_schema() {
   const Json texts = any_of({of_type("string"), list(of_type("string"))});
-  return text_and("What `drape sweep` runs; nothing else reads it.",
+  return text_and("Runs of `drape sweep`; nothing else reads them.",
                   closed({{"scenes", texts},
                           {"set", texts},
                           {"vary", text_and("Keys with the values that each takes.", of_type("object"))},
@@ -282,7 +282,7 @@ std::string scene_schema() {
   const TomlValue* body = nullptr;
   Json read = table_schema(named_motion_table(motion, body));
   read["properties"]["body"] =
-      text_and("What the cloth may touch, in the same formats.", any_of({of_type("string"), list(of_type("string"))}));
+      text_and("Obstacles, in the same formats.", any_of({of_type("string"), list(of_type("string"))}));
   const Json one = root["properties"]["cloth"];
   Json several = list(one);
   several["minItems"] = 1;
@@ -294,7 +294,7 @@ std::string scene_schema() {
     const Json table = table_schema(effect_table(type, effect));
     effects[std::string(type.name)] = type.repeatable ? repeatable(table) : table;
   }
-  root["properties"]["effects"] = text_and("What acts on the cloth: a table for each effect.", closed(effects));
+  root["properties"]["effects"] = text_and("Effects on the cloth: a table for each.", closed(effects));
   root["properties"]["sweep"] = sweep_schema();
   root["definitions"] = {{"mesh", mesh_schema()},
                          {"moving_mesh", moving_mesh_schema()},

@@ -64,7 +64,7 @@ void Body::describe(Keys& keys) {
       "file", CustomValue{"file", &mesh}, "",
       "Mesh file instead, which may move: as for a cloth, or an OBJ sequence, `\"arm/{frame:04}.obj\"`; or `{ file, "
       "prim, up, fps }`. Its coordinates are relative to `center`.");
-  keys.add("prim", &prim, "", "Which mesh of a USD file, where there are several: \"/World/arm\".");
+  keys.add("prim", &prim, "", "Mesh of a USD file that has several: \"/World/arm\".");
   keys.add("center", &center, "m",
            "Position of the box's centre, or the file's origin, at the start. Default: [0, 0, 0].");
   keys.add("rotate", &rotate, "degrees", "Rotates it about the fixed x axis, then y, then z, around `center`.");

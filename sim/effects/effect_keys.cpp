@@ -34,7 +34,7 @@ void describe_friction(Keys& keys, double& friction) {
 
 void describe_overlap(Keys& keys, bool& allow_overlap) {
   keys.add("allow_overlap", &allow_overlap, "",
-           "Whether the cloth may begin inside or across it: they are separated step by step. Otherwise that is an "
+           "Allows the cloth to begin inside or across it: they are separated step by step. Otherwise that is an "
            "error.");
 }
 

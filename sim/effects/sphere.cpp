@@ -72,7 +72,7 @@ void Sphere::describe(Keys& keys) {
   keys.add("thickness", &thickness, "m", "Or this distance from the drawn surface, whatever the radius.").at_least(0);
   describe_obstacle(keys, friction, &restitution);
   keys.add("stiffness", &stiffness, "1/s²",
-           "Of a push instead of contact, which is what a sphere without `friction`, `restitution` and `thickness` is: "
+           "Stiffness of a push instead of contact, for a sphere without `friction`, `restitution` and `thickness`: "
            "outward acceleration per metre of depth within its reach, evaluated once per step. Default: 8000.")
       .at_least(0);
   describe_motion(keys, "center", velocity, orbit_period, orbit_center, orbit_axis, keyframes, interpolation);

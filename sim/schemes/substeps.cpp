@@ -19,7 +19,7 @@ constexpr std::int64_t solved_to_look_with = 64;  // below this number, a step t
 constexpr std::size_t most_kept = 4;              // number of attempts
 
 // Ratios of the error of the shorter substeps to the difference of the motions, and the accepted fraction of the
-// accuracy; measured in docs/accuracy.md.
+// accuracy; measured in docs/notes/accuracy.md.
 constexpr double error_of_verlet = 1.0 / 3, error_of_sdirk2 = 0.7, error_of_backward_euler = 1;
 constexpr double accepted = 0.8;
 constexpr double solve_share = 0.1;  // fraction of the accuracy for the solver errors of both motions

@@ -67,7 +67,7 @@ class LbfgsHistory {
 /// Two changes apply to a fine cloth with the error rule. If only springs hold the cloth together, some iterations use
 /// Newton's method on patches (PatchNewton), as few vertices exceed the tolerance after some iterations. Others are
 /// Newton steps on the whole cloth, by a few conjugate gradients. They estimate the distance from the minimum when the
-/// gradient does not, see docs/accuracy.md.
+/// gradient does not, see docs/notes/accuracy.md.
 class QuasiNewton final : public FactoredMinimiser {
  public:
   QuasiNewton(const System& system, const StepObjective& objective, const IntegratorSettings& settings);

@@ -202,8 +202,8 @@ TEST(CompareTimes, AreThoseOfTheFirstMotion) {
   }
 }
 
-/// Typed at a terminal, from nothing to one's own film and its golden, at a smaller size than usual.
-TEST(FirstMinutes, EndWithAFilmAndAGolden) {
+/// Typed at a terminal, from nothing to one's own film, a figure and a golden, at a smaller size than usual.
+TEST(FirstMinutes, EndWithAFilmAFigureAndAGolden) {
   const SceneFolder folder;
   if (test::run_shell(folder, "test -x /usr/bin/python3").code != 0) GTEST_SKIP() << "no python3";
   const std::string program = fs::path(DRAPE_EXECUTABLE).parent_path();
@@ -217,7 +217,7 @@ TEST(FirstMinutes, EndWithAFilmAndAGolden) {
       test::run_shell(folder, "PATH=" + folder.path("bin") + ":$PATH /usr/bin/python3 " +
                                   std::string(DRAPE_SOURCE_DIR) + "/tests/cli/first_minutes.py . film.cast 1000");
   EXPECT_EQ(finished.code, 0) << finished.text;
-  for (const char* file : {"flag.toml", "out/flag.gif", "flag.golden", "film.cast"}) {
+  for (const char* file : {"flag.toml", "out/flag.gif", "gusts-diagrams/energy.pdf", "flag.golden", "film.cast"}) {
     EXPECT_TRUE(fs::exists(folder.path(file))) << file << "\n" << finished.text;
   }
   EXPECT_TRUE(test::content(folder.path("film.cast")).starts_with("{\"version\": 2"));

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tests/cli/first_minutes.py FOLDER RECORDING [LETTERS_PER_SECOND]: types what a new user types in the first minutes.
+"""tests/cli/first_minutes.py FOLDER RECORDING [LETTERS_PER_SECOND]: types docs/start/quick-start.md: a film, a figure, a golden.
 
 Types into a shell at a terminal of 80x24, in FOLDER, with drape on the PATH. Everything that is seen goes to RECORDING with its time,
 in the format of asciinema (version 2), which plays it. Prints how long each command took, and ends with 1 if one failed.
@@ -25,6 +25,8 @@ COMMANDS = [
     "drape render flag.toml",
     "sed -i 's/#c8322d/#2d5fc8/' flag.toml",
     "drape render flag.toml --quality draft",
+    "drape compare flag.toml --vary effects.air.gust=1,5 --quality draft -o gusts.html",
+    "ls gusts-diagrams/energy.pdf",
     "drape bless flag.toml",
     "drape check flag.toml",
 ]

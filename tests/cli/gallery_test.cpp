@@ -27,6 +27,7 @@ TEST(Gallery, SaysWhichPictureIsStaleAndWhy) {
   for (const char* part : {"script", "docs/images/accuracy", "scenes/homework", "scenes/showcase"}) {
     fs::create_directories(folder.path() / part);
   }
+  fs::copy(repository / "README.md", folder.path());
   fs::copy(repository / "docs/cookbook", folder.path() / "docs/cookbook");
   fs::copy(repository / "script/gallery", folder.path() / "script");
   fs::copy(repository / "docs/images/made-from.txt", folder.path() / "docs/images");
@@ -41,7 +42,9 @@ TEST(Gallery, SaysWhichPictureIsStaleAndWhy) {
 
   folder.write("scenes/showcase/air.toml",
                test::content(repository / "scenes/showcase/air.toml") + "\n[effects.damping]\n");
-  fs::remove(*fs::directory_iterator(folder.path() / "scenes/showcase/ground.golden/frames"));
+  for (const char* name : {"ground", "wind"}) {
+    fs::remove(*fs::directory_iterator(folder.path() / "scenes/showcase" / (std::string(name) + ".golden/frames")));
+  }
   const auto recipe = [&](const std::string& name) { return "docs/cookbook/" + name + ".md"; };
   folder.write(recipe("flag"), test::content(repository / recipe("flag")) + "\n```\ndrape render flag.toml\n```\n");
   folder.write(recipe("curtain"), test::content(repository / recipe("curtain")) + "\nAnother sentence.\n");
@@ -50,6 +53,7 @@ TEST(Gallery, SaysWhichPictureIsStaleAndWhy) {
   EXPECT_NE(stale.text.find("'air' is stale, because of scenes/showcase/air.toml "), std::string::npos) << stale.text;
   EXPECT_NE(stale.text.find("'ground' is stale, because of scenes/showcase/ground.golden "), std::string::npos);
   EXPECT_NE(stale.text.find("'recipe-flag' is stale, because of docs/cookbook/flag.md "), std::string::npos);
+  EXPECT_NE(stale.text.find("'moments-wind' is stale, because of scenes/showcase/wind.golden "), std::string::npos);
   EXPECT_EQ(stale.text.find("hero"), std::string::npos) << stale.text;
   EXPECT_EQ(stale.text.find("curtain"), std::string::npos) << stale.text;
 }

@@ -74,7 +74,7 @@ TEST(Manual, HasEveryKeyOfTheSceneFormat) {
   const std::string page = plain(manual.page("man5/drape-scene.5"));
   const std::string reference = test::content(DRAPE_SOURCE_DIR "/docs/reference/scene-format.md");
   const std::string keys = reference.substr(reference.find("<!-- reference: begin -->"));
-  const std::regex row("\n\\| `([a-z_]+)` \\|");
+  const std::regex row("\n- `([a-z_]+)`: ");
   int count = 0;
   for (std::sregex_iterator at(keys.begin(), keys.end(), row), end; at != end; ++at, ++count) {
     EXPECT_NE(page.find("fB" + (*at)[1].str() + "fR = "), std::string::npos) << (*at)[1];

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -95,6 +96,16 @@ TEST_F(Site, HasNoLinkThatLeadsNowhere) {
   }
 }
 
+TEST_F(Site, HasAMenuOfTheFourKindsOfPages) {
+  const std::string index = test::content(site_->path("site/index.html"));
+  std::size_t at = 0;
+  for (const char* entry : {"Start\n", "docs/start/quick-start.html", "Cookbook\n", "docs/cookbook/flag.html",
+                            "Reference\n", "docs/reference/scene-format.html", "Notes\n", "docs/notes/accuracy.html"}) {
+    at = index.find(entry, at);
+    ASSERT_NE(at, std::string::npos) << entry;
+  }
+}
+
 TEST_F(Site, ShowsEverySceneWithItsFile) {
   const std::string gallery = test::content(site_->path("site/gallery.html"));
   int scenes = 0;
@@ -125,7 +136,9 @@ constexpr const char* contrast_of_links = R"(
 
 TEST_F(Site, FitsItsWindowWithoutTheNetwork) {
   std::ofstream(path("blank.html")) << "<!DOCTYPE html>";
-  for (const char* name : {"index", "gallery", "docs/scene-format", "docs/stability", "scenes/showcase/air"}) {
+  for (const char* name :
+       {"index", "gallery", "docs/start/quick-start", "docs/cookbook/index", "docs/reference/scene-format",
+        "docs/reference/effects", "docs/notes/stability", "scenes/showcase/air"}) {
     for (const bool dark : {false, true}) {
       browser_->set_theme(dark);
       browser_->set_width(1200);
@@ -144,7 +157,9 @@ TEST_F(Site, FitsItsWindowWithoutTheNetwork) {
           "return Math.max(...getComputedStyle(document.body).backgroundColor.match(/\\d+/g).slice(0, 3))");
       EXPECT_EQ(lightness.get<int>() < 128, dark) << name;
       EXPECT_GE(browser_->run(contrast_of_links).get<double>(), 4.5) << name << (dark ? ", dark" : ", light");
-      keep_screenshot("site-" + fs::path(name).filename().string() + (dark ? "-dark" : "-light"));
+      std::string shown = name;
+      std::replace(shown.begin(), shown.end(), '/', '-');
+      keep_screenshot("site-" + shown + (dark ? "-dark" : "-light"));
     }
   }
 }

@@ -58,7 +58,7 @@ TEST(SceneReference, EveryKeyAndEffectHasARow) {
   for (const TableType& table : scene_tables(cloth, seam, scene)) {
     EXPECT_NE(reference.find("### `[" + table.name + "]`"), std::string::npos) << table.name;
     for (const Key& key : table.keys.all()) {
-      EXPECT_NE(reference.find("\n| `" + key.name + "` | "), std::string::npos) << key.name;
+      EXPECT_NE(reference.find("\n- `" + key.name + "`: "), std::string::npos) << key.name;
       EXPECT_FALSE(key.help.empty()) << key.name;
     }
   }

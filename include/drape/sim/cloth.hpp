@@ -107,7 +107,7 @@ void share_mass_by_area(double density, Cloth& cloth);
 /// same amount on fine and coarse meshes. The meaning of E depends on the mesh. Springs at angles θ store ½E·3⟨ε(θ)²⟩
 /// per area if edges have all directions equally. That is the uniaxial stiffness E with a Poisson's ratio of 1/3. On a
 /// grid with one diagonal it is E along the edges, without contraction, if shear is free, and 1.2 E if shear is held
-/// (docs/scene-format.md).
+/// (docs/reference/scene-format.md).
 /// @param modulus E, force per width and strain, positive [N/m]
 /// @throws std::invalid_argument if a spring has no triangle with an area
 void stiffen_by_area(double modulus, Cloth& cloth);
@@ -120,7 +120,7 @@ void stiffen_by_area(double modulus, Cloth& cloth);
 /// ½·2c·ε²). The rigidity is the mean over directions at the least curvature measured, D = (B₀ + 2·B₄₅ + B₉₀)/4.
 ///
 /// The everyday fabrics are estimates without a measured sample. Canvas, cotton, silk and wool stretch by 1, 2, 3 and 4
-/// % at 98 N/m. Paper follows from its thickness and Young's modulus. docs/scene-format.md lists the sources.
+/// % at 98 N/m. Paper follows from its thickness and Young's modulus. docs/reference/scene-format.md lists the sources.
 struct Fabric {
   std::string_view name;    ///< name in scenes
   std::string_view sample;  ///< name in the paper
