@@ -337,7 +337,7 @@ Weave::Weave(const Vertices& rest, const std::vector<Triangle>& triangles,
              const std::vector<std::array<float, 2>>& uvs) {
   if (uvs.size() != 3 * triangles.size()) return;
   // Mean length of a unit of each coordinate, weighted by the triangles' areas.
-  Eigen::Vector2d lengths = Eigen::Vector2d::Zero();
+  Eigen::Vector2d lengths = Eigen::Vector2d::Zero(), longest = lengths;
   double area = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     Eigen::Matrix<double, 3, 2> edges;
@@ -352,19 +352,23 @@ Weave::Weave(const Vertices& rest, const std::vector<Triangle>& triangles,
     const Eigen::Vector3d e = edges.col(0), f = edges.col(1);
     const double here = e.cross(f).norm();
     if (!(here > 0) || across.determinant() == 0) continue;
-    lengths += here * (edges * across.inverse()).colwise().norm().transpose();
+    const Eigen::Vector2d local = (edges * across.inverse()).colwise().norm().transpose();
+    lengths += here * local;
+    longest = longest.cwiseMax(local);
     area += here;
   }
-  if (area > 0) yarns_ = (lengths / (area * yarn_width)).cast<float>();
+  if (!(area > 0)) return;
+  yarns_ = (lengths / (area * yarn_width)).cast<float>();
+  widest_ = yarn_width * (longest.array() * area / lengths.array()).maxCoeff();
 }
 
 bool Weave::visible(const Shot& shot, int height) const {
   if (yarns_.isZero()) return false;
-  constexpr double slack = 0.5;  // for cloth between the vertices, and for stretched yarns
+  constexpr double slack = 0.8;  // for cloth between the vertices, and for stretched yarns
   // The projection's rows scale a unit vector: the second to half the picture's height at a depth of 1.
   const Eigen::Matrix4d projection = shot.view_projection.cast<double>();
   const double pixels = projection.block<1, 3>(1, 0).norm() * height / 2;  // per metre at a depth of 1 m
-  const double farthest = pixels * yarn_width / (slack * least_pixels);
+  const double farthest = pixels * widest_ / (slack * least_pixels);
   const Eigen::RowVector3d back = projection.block<1, 3>(3, 0);
   for (const auto x : shot.frame.positions.rowwise()) {
     const double depth = back.dot(x) + projection(3, 3);

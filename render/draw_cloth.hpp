@@ -39,6 +39,7 @@ class Weave {
 
  private:
   Eigen::Vector2f yarns_ = Eigen::Vector2f::Zero();
+  double widest_ = 0;  // yarn, where the coordinates are stretched most [m]
 };
 
 /// Draws the cloth: its smooth surface with a hem, lit on both sides, with optional mesh lines. Each of several cloths

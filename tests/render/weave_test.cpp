@@ -86,6 +86,20 @@ TEST(Weave, FadesWithoutMoire) {
   }
 }
 
+// Coordinates whose unit is three times as long in one half of the cloth as in the other make its yarns wider there.
+TEST(Weave, IsDrawnWhereverItsYarnsAreWideEnough) {
+  Mesh mesh = make_grid(8, 8);
+  mesh.positions.rowwise() -= mesh.positions.colwise().mean();
+  mesh.positions *= 0.12 / (mesh.positions.col(0).maxCoeff() - mesh.positions.col(0).minCoeff());
+  View view = from_above();
+  view.position *= 0.06;
+  const Frame frame{.positions = mesh.positions};
+  const Shot shot(frame, view, 1, Look{});
+  EXPECT_FALSE(Weave(mesh.positions, mesh.triangles, mesh.uvs).visible(shot, 300)) << "yarns of 2 pixels";
+  for (auto& uv : mesh.uvs) uv[0] = uv[0] < 0.5F ? uv[0] / 3 : uv[0] - 1.0F / 3;
+  EXPECT_TRUE(Weave(mesh.positions, mesh.triangles, mesh.uvs).visible(shot, 300)) << "yarns of 3 pixels";
+}
+
 TEST(Weave, KeepsTheScaleOfAnyTextureCoordinates) {
   Mesh mesh = make_grid(4, 4);
   mesh.positions.col(0) *= 3;
