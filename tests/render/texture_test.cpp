@@ -140,19 +140,44 @@ TEST(Texture, NeedsTextureCoordinates) {
   EXPECT_THROW(draw(mesh, from_above(), look), UsageError);
 }
 
-TEST(Texture, PlaidTiles) {
-  const TextureLevel plaid = load_texture_image(data_folder() / "textures/plaid.png").front();
-  ASSERT_EQ(plaid.width, 1024);
-  const auto step = [&plaid](int a, int b) {  // mean difference between two columns
-    double sum = 0;
-    for (int y = 0; y < plaid.height; ++y) {
-      const auto at = [&](int x) { return plaid.pixels[3 * static_cast<std::size_t>(y * plaid.width + x) + 1]; };
-      sum += std::abs(at(a) - at(b));
+// Between the last column and the first lies a border of two threads and two bands, as between 511 and 512.
+TEST(Texture, OfDrapeTiles) {
+  for (const char* name : {"textures/plaid.png", "textures/gingham.png"}) {
+    const TextureLevel texture = load_texture_image(data_folder() / name).front();
+    ASSERT_EQ(texture.width, 1024) << name;
+    const auto step = [&texture](int a, int b) {  // mean difference between two columns
+      double sum = 0;
+      for (int y = 0; y < texture.height; ++y) {
+        const auto at = [&](int x) { return texture.pixels[3 * static_cast<std::size_t>(y * texture.width + x) + 1]; };
+        sum += std::abs(at(a) - at(b));
+      }
+      return sum / texture.height;
+    };
+    EXPECT_LT(step(1023, 0), 1.5 * step(511, 512)) << name;
+  }
+}
+
+/// Returns the mean difference of green across a yarn of plaid, within a mixed check of a texture, relative to the
+/// mean.
+double contrast_of_mixed_check(const char* name) {
+  const TextureLevel texture = load_texture_image(data_folder() / "textures" / name).front();
+  double sum = 0, mean = 0;
+  for (int y = 8; y < 56; ++y) {
+    for (int x = 8; x < 52; ++x) {
+      const auto green = [&](int column) {
+        return static_cast<double>(texture.pixels[3 * static_cast<std::size_t>(y * texture.width + column) + 1]);
+      };
+      sum += std::abs(green(x + 4) - green(x));
+      mean += green(x);
     }
-    return sum / plaid.height;
-  };
-  // Between the last column and the first lies a border of two threads and two bands, as between 511 and 512.
-  EXPECT_LT(step(1023, 0), 1.5 * step(511, 512));
+  }
+  return sum / mean;
+}
+
+// Yarns of a centimetre alternate in plaid; those of gingham are too fine for the texture.
+TEST(Texture, GinghamHasNoCoarseYarns) {
+  EXPECT_GT(contrast_of_mixed_check("plaid.png"), 0.5);
+  EXPECT_LT(contrast_of_mixed_check("gingham.png"), 0.1);
 }
 
 }  // namespace

@@ -1,0 +1,76 @@
+// The cloth is the subject of the showcase, so it fills much of the golden pictures. They are moments of each film, not
+// its average: films that come to rest early show less cloth.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "check/draw_frames.hpp"
+#include "check/golden.hpp"
+#include "drape/scene/scene.hpp"
+
+namespace drape::coverage {
+namespace {
+
+namespace fs = std::filesystem;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+/// Draws green cloth, red objects and a blue background, without shadows.
+Look signal_colors() {
+  Look look;
+  look.color = {0, 1, 0};
+  look.sphere_color = look.body_color = look.ground_color = {1, 0, 0};
+  look.background = Rgb{0, 0, 1};
+  look.shadows = look.ambient_occlusion = false;
+  look.thickness = 0;
+  look.samples = 1;
+  return look;
+}
+
+/// Returns the fraction of green pixels.
+double green(const Image& image) {
+  int count = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* pixel = image.at(x, y);
+      count += pixel[1] > std::max(pixel[0], pixel[2]) ? 1 : 0;
+    }
+  }
+  return count / static_cast<double>(image.width * image.height);
+}
+
+/// Returns the median of the cloth's fraction of the picture over a scene's golden frames.
+double coverage(const fs::path& file) {
+  Scene scene = load_scene(file);
+  scene.look = signal_colors();
+  const Golden golden = read_golden(golden_folder(file));
+  DrawFrames drawing(scene, golden.size, GlBackend::automatic);
+  std::vector<double> fractions;
+  for (const GoldenFrame& frame : golden.frames) {
+    fractions.push_back(green(drawing.draw(frame.view, frame.frame, frame.time, frame.x)));
+  }
+  return median(fractions);
+}
+
+TEST(Coverage, OfTheShowcasesGoldenPicturesIsThirtyPercentInTheMedian) {
+  std::vector<double> medians;
+  for (const auto& entry : fs::directory_iterator(fs::path(DRAPE_SOURCE_DIR) / "scenes/showcase")) {
+    if (entry.path().extension() != ".toml") continue;
+    medians.push_back(coverage(entry.path()));
+    RecordProperty(entry.path().stem().string(), std::to_string(medians.back()));
+    EXPECT_GT(medians.back(), 0.1) << entry.path();
+  }
+  ASSERT_GE(medians.size(), 10U);
+  EXPECT_GE(median(medians), 0.3);
+}
+
+}  // namespace
+}  // namespace drape::coverage
