@@ -1,4 +1,17 @@
-"""Reads motion files of drape (version 1), as docs/reference/motion-file.md describes them. Needs numpy."""
+"""Reads motion files of drape (version 1), as docs/reference/motion-file.md describes them. Needs numpy.
+
+A state's words encode differences from a prediction by earlier states. D is the word shifted right by one bit, with all bits
+inverted if its lowest bit was 1. A number's bits are those of the prediction plus D, modulo 2^64. In every `group` of 32 states the
+first is predicted from nothing. The lowest byte names the prediction of positions, the next that of velocities:
+
+0            0
+k = 1 to 4   the sum of w_i y_i over the k states before, nearest first; w_i is the product of (s - s_j)/(s_i - s_j) over j != i, in
+             order, starting from 1; s are steps
+5            for velocities: (x - x_1)/d, d = (s - s_1) h
+6            for velocities: 2 (x - x_1)/d - v_1
+
+Predictions use double precision, rounded after each operation, with sums from left to right.
+"""
 
 import json, struct, zlib
 import numpy as np
