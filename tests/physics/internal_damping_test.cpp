@@ -37,28 +37,30 @@ INSTANTIATE_TEST_SUITE_P(With, InternalDamping, testing::ValuesIn(all_methods), 
 drape::InternalDamping damped(double time) { return {.relaxation_time = time}; }
 
 /// Solves so tightly that only the error of the time step remains.
-void solve_tightly(SimulationSettings& settings) {
+void solve_exactly(SimulationSettings& settings) {
   settings.integrator.stop = StoppingRule::change;
   settings.integrator.tolerance = 1e-12;
   settings.integrator.max_iterations = 5000;
 }
 
 State end_of(SimulationSettings settings, double duration, int steps) {
-  solve_tightly(settings);
+  solve_exactly(settings);
   settings.step = duration / steps;
   Simulation simulation(settings);
   for (int step = 0; step < steps; ++step) simulation.step();
   return simulation.state();
 }
 
-double largest(const Vertices& a, const Vertices& b) { return (a - b).rowwise().norm().maxCoeff(); }
+double largest_distance(const Vertices& a, const Vertices& b) { return (a - b).rowwise().norm().maxCoeff(); }
 
 /// Expects the order of convergence of a method between `steps` and twice as many.
 void expect_order(Solver solver, const SimulationSettings& settings, const State& exact, double duration, int steps) {
   const State coarse = end_of(settings, duration, steps), fine = end_of(settings, duration, 2 * steps);
   const double least = solver.second_order() ? 1.75 : 0.85;
-  EXPECT_GE(std::log2(largest(coarse.x, exact.x) / largest(fine.x, exact.x)), least) << "of the positions";
-  EXPECT_GE(std::log2(largest(coarse.v, exact.v) / largest(fine.v, exact.v)), least) << "of the velocities";
+  EXPECT_GE(std::log2(largest_distance(coarse.x, exact.x) / largest_distance(fine.x, exact.x)), least)
+      << "of the positions";
+  EXPECT_GE(std::log2(largest_distance(coarse.v, exact.v) / largest_distance(fine.v, exact.v)), least)
+      << "of the velocities";
 }
 
 // Two masses on a spring: s'' = −ω²(s + τ s') with ω² = k (1/m₁ + 1/m₂), so s decays as exp(−ω²τ t/2).
@@ -126,12 +128,12 @@ TEST_P(InternalDamping, HasTheOrderOfTheSchemeBesideAllElse) {
   const State coarse = end_of(settings, duration, steps), middle = end_of(settings, duration, 2 * steps),
               fine = end_of(settings, duration, 4 * steps);
   const double least = GetParam().second_order() ? 1.7 : 0.8;
-  EXPECT_GE(std::log2(largest(coarse.x, middle.x) / largest(middle.x, fine.x)), least);
-  EXPECT_GE(std::log2(largest(coarse.v, middle.v) / largest(middle.v, fine.v)), least);
+  EXPECT_GE(std::log2(largest_distance(coarse.x, middle.x) / largest_distance(middle.x, fine.x)), least);
+  EXPECT_GE(std::log2(largest_distance(coarse.v, middle.v) / largest_distance(middle.v, fine.v)), least);
 }
 
-RowVector3d momentum(const Cloth& cloth, const State& state) { return cloth.masses.transpose() * state.v; }
-RowVector3d angular_momentum(const Cloth& cloth, const State& state) {
+RowVector3d momentum_of(const Cloth& cloth, const State& state) { return cloth.masses.transpose() * state.v; }
+RowVector3d spin_of(const Cloth& cloth, const State& state) {
   RowVector3d sum = RowVector3d::Zero();
   for (Eigen::Index i = 0; i < state.x.rows(); ++i) {
     sum += cloth.masses[i] * Vector3d(state.x.row(i)).cross(Vector3d(state.v.row(i))).transpose();
@@ -148,15 +150,15 @@ TEST_P(InternalDamping, KeepsBothMomenta) {
   cloth.velocities = random_vertices(count, 2);
   SimulationSettings settings = setup(cloth, GetParam(), 0.01);
   settings.effects = {damped(5e7)};
-  solve_tightly(settings);
+  solve_exactly(settings);
   Simulation simulation(settings);
   const State start = simulation.state();
   for (int step = 0; step < 20; ++step) simulation.step();
   const State& end = simulation.state();
   ASSERT_LT(simulation.energies().kinetic, 0.9 * 0.5 * cloth.masses.dot(start.v.rowwise().squaredNorm())) << "they act";
-  EXPECT_LT((momentum(cloth, end) - momentum(cloth, start)).norm(), 1e-12);
+  EXPECT_LT((momentum_of(cloth, end) - momentum_of(cloth, start)).norm(), 1e-12);
   if (GetParam().scheme == TimeScheme::sdirk2) return;
-  EXPECT_LT((angular_momentum(cloth, end) - angular_momentum(cloth, start)).norm(), 1e-9);
+  EXPECT_LT((spin_of(cloth, end) - spin_of(cloth, start)).norm(), 1e-9);
 }
 
 // A cloth that flies and turns rigidly, curved and with bending, is slowed by nothing.
@@ -278,7 +280,7 @@ TEST_P(InternalDamping, OnlyTakesEnergyAtTheSafeStep) {
     const int substeps = GetParam().is_explicit() ? 9 : 1;
     settings.step = 0.95 * safe * substeps;
     if (substeps > 1) settings.integrator.substeps = substeps;
-    solve_tightly(settings);
+    solve_exactly(settings);
     settings.integrator.tolerance = 1e-7;
     Simulation simulation(settings);
     const double start = simulation.energies().total();
@@ -385,7 +387,7 @@ TEST_P(InternalDamping, IsPartOfTheAccuracyAsked) {
   Simulation simulation(settings);
   for (int step = 0; step < 10; ++step) EXPECT_TRUE(simulation.step().converged);
   const State exact = exact_motion(settings.cloth, Vector3d(0, 0, -9.8), 1, duration, 4000, time);
-  EXPECT_LT(largest(simulation.state().x, exact.x), 10 * 1e-4);
+  EXPECT_LT(largest_distance(simulation.state().x, exact.x), 10 * 1e-4);
 }
 
 }  // namespace

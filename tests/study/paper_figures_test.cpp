@@ -19,7 +19,7 @@
 namespace drape {
 namespace {
 
-NamedChart sample() {
+NamedChart sample_chart() {
   NamedChart named;
   named.name = "plot";
   named.chart = {.title = "Error against time, a title that an article replaces by its caption",
@@ -47,7 +47,7 @@ double inches(const char* text) {
 TEST(PaperFigure, HasTheWidthOfAColumnNoTitleAndASerif) {
   for (const FigureStyle style : {FigureStyle::paper, FigureStyle::paper_wide}) {
     const double width = paper_width(style);
-    const std::string svg = html::paper_file(html::paper_chart(sample().chart, width), width);
+    const std::string svg = html::paper_file(html::paper_chart(sample_chart().chart, width), width);
     tinyxml2::XMLDocument xml;
     ASSERT_EQ(xml.Parse(svg.c_str()), tinyxml2::XML_SUCCESS);
     EXPECT_DOUBLE_EQ(inches(xml.RootElement()->Attribute("width")), width);
@@ -61,7 +61,7 @@ TEST(PaperFigure, HasTheWidthOfAColumnNoTitleAndASerif) {
 
 TEST(PaperFigure, KeepsTheFontSizeOfADrawingThatItScales) {
   html::Diagram half =
-      html::still_chart(sample().chart);  // 640 pixels wide, scaled to 3.3 in: 316.8 pixels, less margins
+      html::still_chart(sample_chart().chart);  // 640 pixels wide, scaled to 3.3 in: 316.8 pixels, less margins
   const std::string svg = html::paper_file(half, 3.3);
   std::smatch scale, size;
   ASSERT_TRUE(std::regex_search(svg, scale, std::regex("scale\\((0\\.[0-9]+)\\)\" class=\"scaled\"")));
@@ -78,7 +78,7 @@ class PaperFiles : public test::InScratchFolder {
     } catch (const OutputError& error) {
       GTEST_SKIP() << error.what();
     }
-    ASSERT_EQ(write_chart(sample(), folder_, FigureStyle::paper), "");
+    ASSERT_EQ(write_chart(sample_chart(), folder_, FigureStyle::paper), "");
   }
 
   /// Compiles a document in the folder and returns its log.
@@ -179,7 +179,7 @@ TEST(LatexTable, RepeatsTheLeadingColumnsInEveryPart) {
 }
 
 TEST(Pgfplots, IncludesHeldPointsLevelsAndNames) {
-  NamedChart named = sample();
+  NamedChart named = sample_chart();
   named.chart.x_holds = {1, 2};
   named.chart.series[0].name = "a_b & c";
   const std::string picture = pgfplots_picture(named, 3.3);
