@@ -160,8 +160,7 @@ GasEnergy::GasEnergy(const Cloth& cloth, std::span<const ClosedPiece> pieces, st
     Piece& piece = pieces_.back();
     for (const Triangle& t : piece.triangles) piece.vertices.insert(piece.vertices.end(), t.begin(), t.end());
     std::ranges::sort(piece.vertices);
-    const auto repeated = std::ranges::unique(piece.vertices);
-    piece.vertices.erase(repeated.begin(), repeated.end());
+    piece.vertices.erase(std::unique(piece.vertices.begin(), piece.vertices.end()), piece.vertices.end());
     for (const Triangle& t : piece.triangles) {
       std::array<int, 3>& places = piece.positions.emplace_back();
       for (std::size_t c = 0; c < 3; ++c) {
