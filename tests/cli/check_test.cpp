@@ -79,7 +79,7 @@ TEST(CheckCommand, ItsPagesRepeatWhatWasTyped) {
   folder.write("swing.toml", scene);
   ASSERT_EQ(drape(folder, "bless swing.toml").code, 0);
   const std::string typed = "check swing.toml --set cloth.mass=1.1 --update none --motion-tolerance 1e-05";
-  ASSERT_EQ(drape(folder, typed + " --report r --jobs 2 --threads 1").code, 1);
+  ASSERT_EQ(drape(folder, typed + " --report r --threads 1 --jobs 2").code, 1);
   const std::string page = test::content(folder.path("r/report.html")),
                     junit = test::content(folder.path("r/junit.xml"));
   EXPECT_NE(page.find("drape " + typed + " --report r --threads 1 --jobs 2<"), std::string::npos);
