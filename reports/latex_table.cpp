@@ -92,7 +92,7 @@ std::string tabular(const ResultTable& table, const std::vector<std::size_t>& pa
     if (widths[i] >= extents[i].natural) {
       form += numeric ? "r" : "l";
     } else {
-      form += fmt::format(">{{\\{}\\arraybackslash}}p{{{:.1f}pt}}", numeric ? "raggedleft" : "raggedright",
+      form += fmt::format(">{{\\{}\\arraybackslash{{}}}}p{{{:.1f}pt}}", numeric ? "raggedleft" : "raggedright",
                           std::floor(10 * widths[i]) / 10);
     }
   }

@@ -118,6 +118,13 @@ void NewtonCholesky::add_contacts() {
 }
 
 void NewtonCholesky::add(const Place& place, const Eigen::Matrix3d& block) {
+  if (place.high >= 0) add_diagonal(place.high, block);
+  if (place.low < 0) return;
+  add_diagonal(place.low, block);
+  add_below(place.low, place.rank, -block);
+}
+
+void NewtonCholesky::add_pair(const Place& place, const Eigen::Matrix3d& block) {
   const Eigen::Matrix3d own = (block + block.transpose()) / 2;
   if (place.high >= 0) add_diagonal(place.high, own);
   if (place.low < 0) return;
@@ -190,7 +197,7 @@ void NewtonCholesky::add_energies(const Vertices& x, double concavity) {
     hessian->add_blocks(blocks_);
   }
   const Place* place = places_.data() + system_.springs.size();
-  for (const Eigen::Matrix3d& block : blocks_.pairs) add(*place++, block);
+  for (const Eigen::Matrix3d& block : blocks_.pairs) add_pair(*place++, block);
   for (Index row = 0; row < vertices_.size(); ++row) {
     const auto b = blocks_.vertices.row(vertices_[row]);
     Eigen::Matrix3d block;

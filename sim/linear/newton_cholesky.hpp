@@ -64,8 +64,10 @@ class NewtonCholesky final : public NewtonSolver {
     int low, high, rank;
   };
 
-  /// Adds [K' −K; −Kᵀ K'] with the symmetric part K' of K.
+  /// Adds [K −K; −K K] with a symmetric K.
   void add(const Place& place, const Eigen::Matrix3d& block);
+  /// Adds [K' −K; −Kᵀ K'] with the symmetric part K' of any K.
+  void add_pair(const Place& place, const Eigen::Matrix3d& block);
   void add_diagonal(int row, const Eigen::Matrix3d& block);
   void add_below(int column, int rank, const Eigen::Matrix3d& block);
 

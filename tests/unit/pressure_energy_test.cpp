@@ -23,7 +23,7 @@
 namespace drape::test {
 namespace {
 
-double product(const Vertices& a, const Vertices& b) { return a.cwiseProduct(b).sum(); }
+double gas_product(const Vertices& a, const Vertices& b) { return a.cwiseProduct(b).sum(); }
 
 /// Makes two balls of different sizes, far from the origin; the second is turned inside out.
 Mesh two_balls() {
@@ -37,14 +37,14 @@ Mesh two_balls() {
   return mesh;
 }
 
-struct Case {
+struct GasCase {
   std::string name;
   Mesh mesh;
   Pressure effect;
 };
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const GasCase& c, std::ostream* out) { *out << c.name; }
 
-class EveryGas : public testing::TestWithParam<Case> {
+class EveryGas : public testing::TestWithParam<GasCase> {
  protected:
   EveryGas() : cloth_(cloth_of(GetParam().mesh, 1, 180, {0, 3})), system_(cloth_, 0.02) {
     GetParam().effect.install(system_);
@@ -84,10 +84,10 @@ class EveryGas : public testing::TestWithParam<Case> {
 };
 INSTANTIATE_TEST_SUITE_P(
     , EveryGas,
-    testing::Values(Case{"Constant", two_balls(), {.pressure = 300}},
-                    Case{"ConstantInALens", two_discs(5, 0.1), {.pressure = 300}},
-                    Case{"Ideal", two_balls(), {.pressure = 300, .gas = Gas::ideal}},
-                    Case{"IdealInAVacuum", two_balls(), {.pressure = 300, .gas = Gas::ideal, .ambient = 0}}),
+    testing::Values(GasCase{"Constant", two_balls(), {.pressure = 300}},
+                    GasCase{"ConstantInALens", two_discs(5, 0.1), {.pressure = 300}},
+                    GasCase{"Ideal", two_balls(), {.pressure = 300, .gas = Gas::ideal}},
+                    GasCase{"IdealInAVacuum", two_balls(), {.pressure = 300, .gas = Gas::ideal, .ambient = 0}}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST_P(EveryGas, HasTheSlopeItsGradientSays) {
@@ -95,7 +95,7 @@ TEST_P(EveryGas, HasTheSlopeItsGradientSays) {
   for (const int seed : {1, 2, 3}) {
     const Vertices x = crumpled(0.01, seed), d = direction(seed + 10);
     const double slope = (value(x + e * d) - value(x - e * d)) / (2 * e);
-    EXPECT_NEAR(product(gradient(x), d), slope, 1e-6 * gradient(x).norm());
+    EXPECT_NEAR(gas_product(gradient(x), d), slope, 1e-6 * gradient(x).norm());
   }
 }
 
@@ -119,7 +119,7 @@ TEST_P(EveryGas, LeavesOutNegativeCurvatureOnlyAndStaysBelowItsBound) {
   Vertices outwards = x;
   outwards.rowwise() -= x.colwise().mean();
   for (const Vertices& d : {direction(1), direction(2), outwards, Vertices(gradient(x))}) {
-    const double positive = product(product_at(x, 0, d), d), exact = product(product_at(x, 1, d), d);
+    const double positive = gas_product(product_at(x, 0, d), d), exact = gas_product(product_at(x, 1, d), d);
     EXPECT_GE(positive, 0);
     EXPECT_GE(positive, exact - 1e-12 * bounded(d));
     EXPECT_LE(positive, bounded(d) * (1 + 1e-12));

@@ -64,7 +64,8 @@ TEST(SceneErrors, AnUnknownTableNamesTheNearest) {
   EXPECT_EQ(folder.problems(with("effect.gravity", "")),
             "scene.toml:4:2: unknown table 'effect'; did you mean 'effects'?");
   EXPECT_EQ(folder.problems(with("renderer", "")),
-            "scene.toml:4:2: unknown table 'renderer'; the tables are 'cloth', 'time', 'integrator', 'camera', 'look', "
+            "scene.toml:4:2: unknown table 'renderer'; the tables are 'cloth', 'seam', 'time', 'integrator', 'camera', "
+            "'look', "
             "'video', 'caption', 'overlay', 'check', 'effects'");
 }
 

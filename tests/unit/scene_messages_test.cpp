@@ -101,9 +101,9 @@ TEST(SceneMessages, PlacesCountCharactersAndLinesOfAnyEnding) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems("\xef\xbb\xbf[cloth]\r\nmesh = { grid = [2, 2] }\r\nstiffness = 10 # größer als 0 €\r\n"
                             "\"größe\" = 1\r\n"),
-            "scene.toml:4:1: unknown key 'größe' in [cloth]; the keys are 'mesh', 'rest', 'mass', 'density', "
-            "'stiffness', 'modulus', 'material', 'spring', 'shear_stiffness', 'bend_stiffness', 'pins', "
-            "'velocity', 'transform'");
+            "scene.toml:4:1: unknown key 'größe' in [cloth]; the keys are 'name', 'mesh', 'rest', 'mass', 'density', "
+            "'stiffness', 'modulus', 'warp', 'material', 'spring', 'shear_stiffness', 'bend_stiffness', 'pins', "
+            "'velocity', 'color', 'texture', 'transform'");
   EXPECT_EQ(folder.problems(with("cloth", "transform.\"größe\" = 1")).substr(0, 16), "scene.toml:5:11:");
   EXPECT_EQ(folder.problems(with("look", "texture = \"tüch.png\" \nsamples = 3")).substr(0, 16), "scene.toml:5:11:");
 }
