@@ -69,7 +69,7 @@ const latexTable = (() => {
       const { least, natural } = extents[i], width = least + share * (natural - least);
       if (width >= natural) return numeric[column] ? "r" : "l";
       const side = numeric[column] ? "raggedleft" : "raggedright";
-      return `>{\\${side}\\arraybackslash}p{${(Math.floor(10 * width) / 10).toFixed(1)}pt}`;
+      return `>{\\${side}\\arraybackslash{}}p{${(Math.floor(10 * width) / 10).toFixed(1)}pt}`;
     });
     const line = (row) => `  ${part.map((column) => escaped(row[column])).join(" & ")} \\\\\n`;
     return `\\begin{tabular}{@{}${form.join("")}@{}}\n  \\toprule\n${line(head)}  \\midrule\n` +

@@ -162,7 +162,7 @@ TEST_F(PaperFiles, TablesFitTheirColumn) {
 TEST(LatexTable, WrapsOnlyWhereItMust) {
   const std::vector<ResultTable> all = tables();
   EXPECT_NE(to_latex(all[2]).find("\\begin{tabular}{@{}rl@{}}"), std::string::npos) << to_latex(all[2]);
-  EXPECT_NE(to_latex(all[1]).find(">{\\raggedright\\arraybackslash}p{"), std::string::npos) << to_latex(all[1]);
+  EXPECT_NE(to_latex(all[1]).find(">{\\raggedright\\arraybackslash{}}p{"), std::string::npos) << to_latex(all[1]);
   EXPECT_NE(to_latex(all[0]).find("fits a page of 7 in"), std::string::npos);
 }
 
