@@ -41,6 +41,7 @@ struct ContactConstraint {
   double restitution = 0;              ///< ratio of separation to impact speed
   double beyond = 0;                   ///< additional gap at the end of the step due to a bounce [m]
   bool collides = false;               ///< true if the features pass through each other on straight paths
+  bool sews = false;                   ///< true for a tie of a seam: a rope, or a weld
   bool welds = false;                  ///< true: d(x) = 0 instead, at the end of the step and in every direction
   double radius = -1;                  ///< limit of the friction force, µ times a normal force [N]; negative: unknown
   double stiffness = 0;                ///< penalty κ of the augmented Lagrangian [N/m]

@@ -20,7 +20,7 @@ constexpr double closed_gap = 1e-7;        // largest gap of a weld [m]
 
 /// Returns the convergence tolerance of a contact in a pass [m].
 double tolerance_of(const ContactConstraint& contact) {
-  return settled_share * std::abs(contact.distance) + least_correction;
+  return settled_share * (contact.sews ? std::abs(contact.distance) : contact.distance) + least_correction;
 }
 
 /// Returns a force across the normal, limited to `most`.
@@ -183,7 +183,9 @@ void ImpulseContact::solve() {
 bool ImpulseContact::stays_as_found() const {
   double least = std::numeric_limits<double>::infinity();
   for (const Impulse& impulse : impulses_) {
-    if (impulse.contact.distance > 0) least = std::min(least, impulse.contact.distance);  // others are always known
+    const ContactConstraint& contact = impulse.contact;
+    if (contact.sews) continue;  // always known
+    least = std::min(least, contact.distance);
   }
   return (target_ - before_target_).rowwise().squaredNorm().maxCoeff() <= near_share * near_share * least * least;
 }

@@ -37,6 +37,7 @@ void SeamContacts::find(const Vertices& target, int source, const std::vector<Co
       contact.key = {.source = source, .kind = 0, .features = {static_cast<int>(s), static_cast<int>(k), -1, -1}};
       contact.start = contact.gather(*x_);
       contact.normal = Eigen::Vector3d::UnitZ();
+      contact.sews = true;
       contact.welds = length == 0;
       if (!contact.welds) {
         const Eigen::Vector3d way = contact.gather(target);
