@@ -15,7 +15,6 @@
 #include "cli/motion_runs.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_files.hpp"
-#include "cli/style_option.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"

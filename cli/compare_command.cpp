@@ -9,7 +9,6 @@
 #include "cli/options.hpp"
 #include "cli/run_arguments.hpp"
 #include "cli/scene_files.hpp"
-#include "cli/style_option.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "compare/compare_scenes.hpp"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "output/registry.hpp"
+#include "reports/figure_style.hpp"
 #include "run/frame_source.hpp"
 #include "scene/values.hpp"
 
@@ -50,5 +51,8 @@ CLI::Validator whole_number_in(const Range& range);
 /// Adds --quality, a short form of --set look.quality=….
 /// @param overrides receives the value; must outlive the command
 void add_quality_option(CLI::App& command, std::vector<std::string>& overrides);
+
+/// Adds --style, shared by all subcommands that write diagrams as files.
+void add_style_option(CLI::App& subcommand, FigureStyle& style);
 
 }  // namespace drape

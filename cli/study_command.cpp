@@ -10,7 +10,6 @@
 
 #include "cli/command_line.hpp"
 #include "cli/options.hpp"
-#include "cli/style_option.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
 #include "core/files.hpp"

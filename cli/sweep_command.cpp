@@ -8,7 +8,6 @@
 #include "check/candidate.hpp"
 #include "cli/options.hpp"
 #include "cli/study_command.hpp"
-#include "cli/style_option.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"

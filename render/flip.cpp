@@ -139,7 +139,7 @@ struct Sensitivity {
 constexpr std::array<Sensitivity, 3> sensitivities{
     {{1, 0.0047, 0, 0}, {1, 0.0053, 0, 0}, {34.1, 0.04, 13.5, 0.025}}};  // achromatic, red-green, blue-yellow
 
-/// Returns a picture as perceived: convolved, clamped to the display's range, in a perceptually uniform space.
+/// Returns a picture as perceived: filtered, clamped to the display's range, in a perceptually uniform space.
 Planes perceived(const Planes& opponent, double pixels_per_degree) {
   Planes planes;
   for (std::size_t c = 0; c < 3; ++c) planes[c] = sensitivities[c].apply(opponent[c], pixels_per_degree);
