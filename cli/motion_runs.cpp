@@ -109,7 +109,7 @@ struct ImportedFile {
 /// @param name name of that file
 std::shared_ptr<ImportedFile> import_for_now(const ImportOptions& options, const std::string& name,
                                              const std::vector<std::string>& overrides, const std::string& look) {
-  const auto imported = std::make_shared<ImportedFile>();
+  auto imported = std::make_shared<ImportedFile>();
   const std::filesystem::path motion = imported->folder.path() / (name + ".drape");
   try {
     run_watched(
