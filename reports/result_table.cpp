@@ -29,7 +29,7 @@ bool is_number(std::string_view cell) {
 }
 
 std::string quoted(const std::string& text) {
-  const std::string cell = begins_formula(text) && !is_number(text) ? "'" + text : text;
+  std::string cell = begins_formula(text) && !is_number(text) ? "'" + text : text;
   if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
   std::string result = "\"";
   for (const char c : cell) result += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/files.hpp"
@@ -189,9 +190,10 @@ class Checks {
   /// Returns true if any corner of a piece has texture coordinates other than zero.
   [[nodiscard]] bool has_coordinates(const ClothPiece& piece) const {
     if (scene_.uvs.empty()) return false;
-    const auto first = scene_.uvs.begin() + 3 * piece.first_triangle;
-    return std::any_of(first, first + 3 * piece.triangle_count,
-                       [](const std::array<float, 2>& uv) { return uv[0] != 0 || uv[1] != 0; });
+    const auto corners = std::span(scene_.uvs)
+                             .subspan(3 * static_cast<std::size_t>(piece.first_triangle),
+                                      3 * static_cast<std::size_t>(piece.triangle_count));
+    return std::ranges::any_of(corners, [](const std::array<float, 2>& uv) { return uv[0] != 0 || uv[1] != 0; });
   }
 
   [[nodiscard]] bool length_is_overridden() const {

@@ -35,8 +35,9 @@ class Drum : public Solved {
     share_mass_by_area(1e-3, cloth);
     stiffen_by_area(modulus, cloth);
     for (int row = 0; row < 2; ++row) {
-      cloth.masses[row * (cells_along + 1)] += 0.005;
-      cloth.masses[row * (cells_along + 1) + cells_along] += 0.005 * ratio;
+      const Eigen::Index first = Eigen::Index{row} * (cells_along + 1);
+      cloth.masses[first] += 0.005;
+      cloth.masses[first + cells_along] += 0.005 * ratio;
     }
     SimulationSettings result = settings(cloth, 0.005);
     result.effects.add(Damping{.factor = 1e-2});

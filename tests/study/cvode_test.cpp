@@ -23,25 +23,21 @@ constexpr double agreement = 1e-8;  // [m]
 #ifdef DRAPE_HAS_CVODE
 
 /// Computes springs and gravity, written independently.
-void accelerate(const Cloth& cloth, const double* x, double* a) {
+void accelerate(const Cloth& cloth, const double* places, double* accelerations) {
   const auto n = cloth.positions.rows();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    a[3 * i] = a[3 * i + 1] = 0;
-    a[3 * i + 2] = -gravity * cloth.masses[i];
-  }
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  const Eigen::Map<const Rows> x(places, n, 3);
+  Eigen::Map<Rows> a(accelerations, n, 3);
+  a.setZero();
   for (const Spring& spring : cloth.springs) {
-    const Eigen::Map<const Eigen::Vector3d> from(x + 3 * spring.i), to(x + 3 * spring.j);
-    const Eigen::Vector3d way = to - from;
-    const Eigen::Vector3d pull = spring.stiffness * (1 - spring.rest_length / way.norm()) * way;
-    for (int k = 0; k < 3; ++k) {
-      a[3 * spring.i + k] += pull[k];
-      a[3 * spring.j + k] -= pull[k];
-    }
+    const Eigen::RowVector3d way = x.row(spring.j) - x.row(spring.i);
+    const Eigen::RowVector3d pull = spring.stiffness * (1 - spring.rest_length / way.norm()) * way;
+    a.row(spring.i) += pull;
+    a.row(spring.j) -= pull;
   }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (int k = 0; k < 3; ++k) a[3 * i + k] /= cloth.masses[i];
-  }
-  for (const int pin : cloth.pins) a[3 * pin] = a[3 * pin + 1] = a[3 * pin + 2] = 0;
+  a.array().colwise() /= cloth.masses.array();
+  a.col(2).array() -= gravity;
+  for (const int pin : cloth.pins) a.row(pin).setZero();
 }
 
 int derivative(realtype, N_Vector y, N_Vector slope, void* data) {

@@ -240,13 +240,13 @@ TEST_F(ValidationRuns, OfShardsAreThoseOfTheWhole) {
 
 /// The ring of a flat disc covers all of it, one that hangs straight down nothing, and a folded sheet its shadow once.
 TEST(Measures, DrapeIsTheShareOfTheRingThatCastsAShadow) {
-  constexpr int sides = 96;
+  constexpr int sides = 96, center = 2 * sides;
   constexpr double outer = 0.2, held = 0.1;
   ObservedMotion disc;
   disc.times = {0};
   const auto shape = [](double radius, double depth) {
-    Vertices x(2 * sides + 1, 3);
-    x.row(2 * sides).setZero();
+    Vertices x(center + 1, 3);
+    x.row(center).setZero();
     for (int i = 0; i < sides; ++i) {
       const double angle = 2 * M_PI * i / sides;
       x.row(i) << held * std::cos(angle), held * std::sin(angle), 0;
@@ -256,7 +256,7 @@ TEST(Measures, DrapeIsTheShareOfTheRingThatCastsAShadow) {
   };
   for (int i = 0; i < sides; ++i) {
     const int next = (i + 1) % sides;
-    disc.cloth.triangles.push_back({2 * sides, i, next});
+    disc.cloth.triangles.push_back({center, i, next});
     disc.cloth.triangles.push_back({i, sides + i, sides + next});
     disc.cloth.triangles.push_back({i, sides + next, next});
   }
