@@ -34,18 +34,35 @@ int last_of(const std::vector<std::string>& varied) {
   return count > widest ? 0 : static_cast<int>(count);
 }
 
+/// Gives simulated scenes whose method was chosen the one that they share.
+/// @param overrides of each scene
+/// @param recorded  motion of each scene; null: it is simulated
+void share_method(const std::vector<std::vector<std::string>>& overrides,
+                  const std::vector<std::shared_ptr<MotionReader>>& recorded, std::vector<Scene>& scenes) {
+  std::vector<std::optional<MethodChoice>> choices;
+  for (std::size_t i = 0; i < scenes.size(); ++i) choices.push_back(recorded[i] ? std::nullopt : scenes[i].choice);
+  const std::vector<std::vector<std::string>> shared = shared_method_overrides(choices);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (shared[i].empty()) continue;
+    std::vector<std::string> all = overrides[i];
+    all.insert(all.end(), shared[i].begin(), shared[i].end());
+    scenes[i] = open_scene(scenes[i].file.string(), all).scene;
+  }
+}
+
 /// Loads the scenes in all variations.
 /// @returns the scenes, and the motion of each if it is in a file
 std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_variations(
     const CompareArguments& arguments) {
   std::vector<Scene> scenes;
   std::vector<std::shared_ptr<MotionReader>> recorded;
+  std::vector<std::vector<std::string>> overrides;
   SceneProblems problems;
   const auto load = [&](const std::string& file, const std::vector<std::string>& some) {
-    std::vector<std::string> overrides = arguments.overrides;
-    overrides.insert(overrides.end(), some.begin(), some.end());
+    overrides.push_back(arguments.overrides);
+    overrides.back().insert(overrides.back().end(), some.begin(), some.end());
     try {
-      SceneToRun found = open_scene(file, overrides);
+      SceneToRun found = open_scene(file, overrides.back());
       if (found.recorded) require_steps(file, found.recorded->last_step(), arguments.options.steps);
       scenes.push_back(std::move(found.scene));
       recorded.push_back(std::move(found.recorded));
@@ -60,6 +77,7 @@ std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_v
     for (const std::vector<std::string>& values : all) load(file, overrides_of(varied, values));
   }
   problems.throw_if_any(arguments.scenes);
+  share_method(overrides, recorded, scenes);
   constexpr std::size_t most = 36;
   if (scenes.size() > most) {
     throw UsageError(fmt::format("{} motions cannot be shown side by side; the limit is {}", scenes.size(), most));

@@ -229,8 +229,7 @@ void UsdWriter::write_cloth() {
     file_.write(indent + "rel material:binding = </Scene/ClothMaterial>\n    }\n\n");
     return;
   }
-  for (std::size_t k = 0; k < film_.cloth->pieces.size(); ++k) {
-    const ClothPiece& piece = film_.cloth->pieces[k];
+  for (const ClothPiece& piece : film_.cloth->pieces) {
     const std::string faces =
         list(piece.triangle_count, [&](int t) { return fmt::format("{}", piece.first_triangle + t); });
     file_.write(

@@ -234,21 +234,44 @@ void add_bending_of_materials(const ClothList& cloths, Effects& effects) {
   for (const Bending& bending : added) effects.add(bending);
 }
 
+/// Returns the overrides that name a method where `choice` was made.
+std::vector<std::string> method_overrides(const MethodChoice& choice, Method method) {
+  std::vector<std::string> names{"integrator.method=" + method_name(method)};
+  if (method == Method::verlet && !choice.adapts) {
+    names.push_back(fmt::format("integrator.substeps={}", choice.substeps));
+  }
+  return names;
+}
+
 /// Chooses a method and writes its name to the scene and the document, so that a recorded motion names it.
 void name_method(Scene& scene, TomlValue& document, Problems& problems) {
   SimulationSettings& settings = scene.simulation;
   scene.choice = choose_method(settings);
   scene.choice->apply(settings);
-  const IntegratorSettings& integrator = settings.integrator;
-  if (settings.accuracy && !is_explicit(integrator.method)) settings.integrator.scheme = TimeScheme::sdirk2;
-  std::vector<std::string> names{"integrator.method=" + method_name(integrator.method)};
-  if (integrator.substeps) names.push_back(fmt::format("integrator.substeps={}", *integrator.substeps));
-  apply_overrides(document, names, problems);
+  const Method method = settings.integrator.method;
+  if (settings.accuracy && !is_explicit(method)) settings.integrator.scheme = TimeScheme::sdirk2;
+  apply_overrides(document, method_overrides(*scene.choice, method), problems);
 }
 
 }  // namespace
 
 std::int64_t Scene::step_count() const { return static_cast<std::int64_t>(std::llround(duration / simulation.step)); }
+
+std::vector<std::vector<std::string>> shared_method_overrides(const std::vector<std::optional<MethodChoice>>& choices) {
+  std::vector<MethodChoice> made;
+  for (const auto& choice : choices) {
+    if (choice) made.push_back(*choice);
+  }
+  std::vector<std::vector<std::string>> overrides(choices.size());
+  const std::optional<Method> shared = shared_method(made);
+  if (!shared || std::ranges::all_of(made, [&](const MethodChoice& one) { return one.method == *shared; })) {
+    return overrides;
+  }
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i]) overrides[i] = method_overrides(*choices[i], *shared);
+  }
+  return overrides;
+}
 
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides, Cells cells) {
   Scene scene = make_scene(read_document(file), file, overrides, cells);

@@ -133,6 +133,7 @@ void require_run(const Scene& scene, const RunOptions& options, int largest_text
 std::vector<std::string> overrides_of(const SweepPlan& plan, const PlannedRun& run) {
   std::vector<std::string> overrides = plan.request.overrides;
   for (std::string& override : overrides_of(plan.request.varied, run.values)) overrides.push_back(std::move(override));
+  overrides.insert(overrides.end(), run.shared.begin(), run.shared.end());
   return overrides;
 }
 
@@ -184,24 +185,39 @@ SweepPlan make_plan(const SweepRequest& request) {
   const RunOptions options = run_options(request, trial.place());
   const int largest_texture = needs_drawing(options) ? inspect_backend(request.backend).max_texture_size : 0;
   RunProblems problems(plan);
+  std::vector<std::optional<MethodChoice>> choices;
+  const auto resolve = [&](std::size_t index) {
+    PlannedRun& run = plan.runs[index];
+    try {
+      const Scene scene = load_scene(request.scenes[run.scene], overrides_of(plan, run));
+      require_run(scene, options, largest_texture);
+      run.key = run_key(scene, plan);
+      if (!plan.side && chooses_side(request, scene.camera)) plan.side = index;
+      run.cost = estimated_cost(scene, options);
+      choices[index] = scene.choice;
+    } catch (const SceneConflict& error) {
+      run.refusal = error.what();
+    } catch (const Error& error) {
+      problems.add(run, error);
+    }
+  };
   for (std::size_t i = 0; i < request.scenes.size(); ++i) {
     for (const std::vector<std::string>& values : all) {
-      PlannedRun run{.scene = i, .values = values, .key = {}, .refusal = {}};
-      try {
-        const Scene scene = load_scene(request.scenes[i], overrides_of(plan, run));
-        require_run(scene, options, largest_texture);
-        run.key = run_key(scene, plan);
-        if (!plan.side && chooses_side(request, scene.camera)) plan.side = plan.runs.size();
-        run.cost = estimated_cost(scene, options);
-      } catch (const SceneConflict& error) {
-        run.refusal = error.what();
-      } catch (const Error& error) {
-        problems.add(run, error);
-      }
-      plan.runs.push_back(std::move(run));
+      plan.runs.push_back({.scene = i, .values = values, .shared = {}, .key = {}, .refusal = {}});
+      choices.emplace_back();
+      resolve(plan.runs.size() - 1);
     }
   }
   problems.throw_if_any(plan.runs.size());
+  const std::vector<std::vector<std::string>> shared = shared_method_overrides(choices);
+  if (std::ranges::any_of(shared, [](const auto& overrides) { return !overrides.empty(); })) {
+    plan.side.reset();  // keys depend on it
+    for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+      plan.runs[i].shared = shared[i];
+      resolve(i);
+    }
+    problems.throw_if_any(plan.runs.size());
+  }
   if (std::ranges::none_of(plan.runs, &std::string::empty, &PlannedRun::refusal)) {
     for (const PlannedRun& run : plan.runs) problems.add(run, UsageError(run.refusal));
     problems.throw_if_any(plan.runs.size());
@@ -222,8 +238,12 @@ Json plan_json(const SweepPlan& plan) {
     varied.push_back({{"key", variation.key}, {"values", variation.values}});
   }
   for (const PlannedRun& run : plan.runs) {
-    runs.push_back(
-        {{"scene", run.scene}, {"values", run.values}, {"key", run.key}, {"refusal", run.refusal}, {"cost", run.cost}});
+    runs.push_back({{"scene", run.scene},
+                    {"values", run.values},
+                    {"shared", run.shared},
+                    {"key", run.key},
+                    {"refusal", run.refusal},
+                    {"cost", run.cost}});
   }
   return {{"program", plan.program},
           {"scenes", request.scenes},
@@ -257,6 +277,7 @@ SweepPlan plan_of(const Json& json) {
   for (const Json& item : json.at("runs")) {
     PlannedRun run{.scene = item.at("scene"),
                    .values = item.at("values"),
+                   .shared = item.at("shared"),
                    .key = item.at("key"),
                    .refusal = item.at("refusal"),
                    .cost = item.at("cost")};

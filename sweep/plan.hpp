@@ -16,6 +16,8 @@ namespace drape {
 struct PlannedRun {
   std::size_t scene = 0;            ///< index in the request
   std::vector<std::string> values;  ///< values of the varied keys, in their order
+  std::vector<std::string>
+      shared;  ///< overrides that name the method which all runs share, see shared_method_overrides()
   /// Hash of the resolved scene with its files, the program, the request, and the run that decides the viewing
   /// direction. Written as 16 hexadecimal digits; also the name of the run's folder.
   std::string key;

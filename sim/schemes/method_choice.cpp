@@ -67,6 +67,7 @@ MethodChoice choose_method(const SimulationSettings& settings) {
   const double longest = safe_step(system), ratio = settings.step / longest;
   const std::int64_t fewest = SubstepGuard::fewest_substeps(settings.step, longest);
   MethodChoice choice;
+  choice.adapts = settings.accuracy.has_value();
   choice.substeps = settings.integrator.substeps.value_or(static_cast<int>(fewest));
   choice.verlet = estimated_step(settings, Method::verlet, choice.substeps, ratio);
   choice.quasi_newton = steps_of_backward_euler * estimated_step(settings, Method::quasi_newton, 1, ratio);
@@ -96,6 +97,21 @@ MethodChoice choose_method(const SimulationSettings& settings) {
   return choice;
 }
 
+std::optional<Method> shared_method(std::span<const MethodChoice> choices) {
+  double verlet = 0, quasi_newton = 0;
+  std::optional<Method> only;
+  for (const MethodChoice& choice : choices) {
+    verlet += choice.verlet;
+    quasi_newton += choice.quasi_newton;
+    if (choice.only && only && only != choice.method) return std::nullopt;
+    if (choice.only) only = choice.method;
+  }
+  if (only) return only;
+  const auto like_first = [&](const MethodChoice& choice) { return choice.method == choices.front().method; };
+  if (!choices.empty() && std::ranges::all_of(choices, like_first)) return choices.front().method;
+  return verlet <= quasi_newton ? Method::verlet : Method::quasi_newton;
+}
+
 std::optional<Method> implied_method(const IntegratorSettings& integrator) {
   if (integrator.linear_solver != LinearSolver::automatic) return Method::implicit;
   const bool solved = integrator.stop || integrator.tolerance || integrator.max_iterations;
@@ -104,7 +120,7 @@ std::optional<Method> implied_method(const IntegratorSettings& integrator) {
 
 void MethodChoice::apply(SimulationSettings& settings) const {
   settings.integrator.method = method;
-  if (method == Method::verlet && !settings.accuracy) settings.integrator.substeps = substeps;
+  if (method == Method::verlet && !adapts) settings.integrator.substeps = substeps;
 }
 
 SimulationSettings with_method(SimulationSettings settings) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/files.hpp"
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/read_picture.hpp"
 
@@ -38,6 +39,16 @@ TEST(Compare, VariesASceneByItsKeys) {
   std::size_t motions = 0;
   for (std::size_t at = 0; (at = finished.text.find("drape: ", at)) != std::string::npos; ++at) ++motions;
   EXPECT_EQ(motions, 4U) << finished.text;
+}
+
+TEST(Compare, GivesAllTheMethodThatIsChosenOnce) {
+  const SceneFolder folder;
+  folder.write("a.toml", scene);
+  const Finished finished = drape(folder, "compare a.toml --vary cloth.stiffness=10,1e9 -o a.html");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  const std::string page = read_file(folder.path("a.html"), std::size_t{1} << 28);
+  EXPECT_NE(page.find("quasi-newton"), std::string::npos);
+  EXPECT_EQ(page.find("verlet"), std::string::npos);
 }
 
 TEST(Compare, PutsWhatOnlyTheLastKeyTellsApartIntoARow) {

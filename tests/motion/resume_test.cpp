@@ -22,8 +22,8 @@ std::vector<std::string> effects_of_scenes() {
       "[effects.air]\nvelocity = [1, 2, 0]\ngust = 1\n",
       "[effects.bending]\nrigidity = 1e-4\ncross_stiffness = 1\n",
       "[effects.moving_pins]\npins = [0, 6]\nkeyframes = [{ time = 0.05, offset = [0, 0, 0.2] }]\nrelease = 0.1\n",
-      "[effects.sphere]\nkeyframes = [{ time = 0, center = [0, 0, -0.3] }, { time = 0.2, center = [0, 0.1, -0.1] }]\n"
-      "radius = 0.3\nfriction = 0.3\n",
+      "[effects.sphere]\nradius = 0.3\nfriction = 0.3\n" +
+          std::string("keyframes = [{ time = 0, center = [0, 0, -0.3] }, { time = 0.2, center = [0, 0.1, -0.1] }]\n"),
       "[effects.ground]\nheight = -0.05\nrestitution = 0.5\n",
       "[effects.strain_limit]\nmax_stretch = 1.05\n",
       "[effects.self_collision]\nthickness = 0.02\n",

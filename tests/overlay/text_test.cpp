@@ -248,7 +248,8 @@ TEST(Pen, DrawsARimOfAnySize) {
     }
   }
   const Glyph& letter = pen.fonts().glyph(U'r', 512);
-  EXPECT_NEAR(first, 100 + letter.left - 512 / 7, 8);
+  constexpr int rim = 512 / 7;
+  EXPECT_NEAR(first, 100 + letter.left - rim, 8);
 }
 
 TEST(Pen, ARimIsAsDarkAsItIsNear) {

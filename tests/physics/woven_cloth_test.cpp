@@ -51,9 +51,10 @@ double pulled(double warp, WarpWeft modulus, int columns) {
   cloth.positions.col(2) = flat.positions.col(1);  // it hangs along z
   cloth.positions.col(1).setZero();
   const Vertices x = at_rest(std::move(cloth), {});
-  const auto height = [&](int row) { return x.col(2).segment(row * (columns + 1), columns + 1).mean(); };
-  const double low = rows / 4 * cell, high = rows / 2 * cell;
-  const double extension = height(rows / 2) - height(rows / 4) - (high - low);
+  const auto height = [&](int row) { return x.col(2).segment(Eigen::Index{row} * (columns + 1), columns + 1).mean(); };
+  const int quarter = rows / 4, half = rows / 2;
+  const double low = quarter * cell, high = half * cell;
+  const double extension = height(half) - height(quarter) - (high - low);
   return weight * (high * high - low * low) / 2 / extension;
 }
 

@@ -5,6 +5,7 @@
 namespace drape {
 namespace {
 
+using test::least_scene;
 using test::request_of;
 using test::SceneFolder;
 using test::tiny_scene;
@@ -55,6 +56,29 @@ TEST_F(Plan, RefusesARunAndNotTheSweepWhereValuesDoNotGoTogether) {
   EXPECT_NE(plan.runs[3].refusal.find("step"), std::string::npos);
   EXPECT_NE(problems({"integrator.method=verlet", "time.step=0.08,0.09"}).find("step"), std::string::npos)
       << "all are refused";
+}
+
+/// Springs of 1e9 N/m are too stiff for short steps: what is compared with them takes their method, too.
+TEST_F(Plan, RunsShareTheMethodThatIsChosen) {
+  const std::string text = least_scene + "duration = 0.1\n";
+  const std::filesystem::path file = folder_.write("unnamed.toml", text);
+  const auto shared = [&](const std::vector<std::string>& varied) {
+    std::vector<std::string> methods;
+    const SweepPlan plan = make_plan(request_of(file, varied));
+    for (const PlannedRun& run : plan.runs) {
+      methods.push_back(method_name(load_scene(file, overrides_of(plan, run)).simulation.integrator.method));
+    }
+    return methods;
+  };
+  using Methods = std::vector<std::string>;
+  EXPECT_EQ(shared({"cloth.stiffness=10,20"}), (Methods{"verlet", "verlet"}));
+  EXPECT_EQ(shared({"cloth.stiffness=10,1e9"}), (Methods{"quasi-newton", "quasi-newton"}));
+  EXPECT_EQ(shared({"cloth.stiffness=10,1e9", "integrator.method=liu13,auto"}),
+            (Methods{"liu13", "quasi-newton", "liu13", "quasi-newton"}));
+  const SweepPlan plan = make_plan(request_of(file, {"cloth.stiffness=10,1e9"}));
+  EXPECT_EQ(plan_of(plan_json(plan)).runs.front().shared, plan.runs.front().shared);
+  EXPECT_EQ(plan.runs.front().key,
+            make_plan(request_of(file, {"cloth.stiffness=10", "integrator.method=quasi-newton"})).runs.front().key);
 }
 
 TEST_F(Plan, GivesKeysOfWhatIsRunAndOfNothingElse) {

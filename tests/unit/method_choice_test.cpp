@@ -68,6 +68,21 @@ TEST(MethodChoice, CountsWhatInternalDampingCosts) {
   EXPECT_EQ(choice(20).method, Method::quasi_newton);
 }
 
+TEST(MethodChoice, IsSharedByRunsThatAreCompared) {
+  const auto choice = [](Method method, double verlet, double quasi_newton, bool only) {
+    return MethodChoice{.method = method, .verlet = verlet, .quasi_newton = quasi_newton, .only = only};
+  };
+  const MethodChoice cheap = choice(Method::verlet, 1, 2, false), stiff = choice(Method::quasi_newton, 5, 3, false),
+                     forced = choice(Method::verlet, 9, 1, true), barred = choice(Method::quasi_newton, 1, 9, true);
+  const auto shared = [](std::vector<MethodChoice> choices) { return shared_method(choices); };
+  EXPECT_EQ(shared({cheap, cheap}), Method::verlet);
+  EXPECT_EQ(shared({cheap, stiff}), Method::quasi_newton) << "6 s against 5 s";
+  EXPECT_EQ(shared({cheap, cheap, stiff}), Method::verlet) << "7 s each; the more accurate";
+  EXPECT_EQ(shared({stiff, stiff, forced}), Method::verlet);
+  EXPECT_EQ(shared({cheap, barred}), Method::quasi_newton);
+  EXPECT_EQ(shared({forced, barred}), std::nullopt);
+}
+
 TEST(MethodChoice, FollowsFromWhatSettingsSayOfTheSolve) {
   EXPECT_EQ(with_method(unnamed(0.01)).integrator.method, Method::verlet);
   SimulationSettings settings = unnamed(0.01);

@@ -36,7 +36,7 @@ class UsdPieces : public test::InScratchFolder {
   std::string expect_same(const std::string& text) {
     const std::filesystem::path file = put(path("a.usda"), text);
     std::string whole, pieces;
-    const std::string unreadable = test::usage_error([&] { whole = read(SourceText::read(file)); });
+    std::string unreadable = test::usage_error([&] { whole = read(SourceText::read(file)); });
     EXPECT_EQ(test::usage_error([&] { pieces = read(SourceText::open(file)); }), unreadable);
     EXPECT_EQ(pieces, whole);
     if (whole.empty()) return unreadable;

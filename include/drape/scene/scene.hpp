@@ -111,6 +111,11 @@ enum class Cells {
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                  Cells cells = Cells::of_quality);
 
+/// Returns overrides by scene that give all scenes whose method was chosen the same one, so that they can be compared;
+/// see shared_method(). All are empty if these agree already or can share none.
+/// @param choices see Scene::choice
+std::vector<std::vector<std::string>> shared_method_overrides(const std::vector<std::optional<MethodChoice>>& choices);
+
 /// Makes a scene from a parsed document.
 /// @param document a table; messages name its places. Line 0: made by a program, without a text
 /// @param file     file name for messages; files named in the scene are looked up in its folder

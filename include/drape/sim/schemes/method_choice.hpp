@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "drape/sim/settings.hpp"
@@ -15,6 +16,7 @@ struct MethodChoice {
   double quasi_newton = 0;               ///< estimated time of two half steps of quasi-Newton [s]
   std::string reason;                    ///< completes a sentence after "as": "the cheaper"
   bool only = false;                     ///< true if no other method is possible
+  bool adapts = false;                   ///< true if an accuracy determines the substeps of every step
 
   /// Sets the method in the settings.
   void apply(SimulationSettings& settings) const;
@@ -27,6 +29,10 @@ struct MethodChoice {
 /// choice depends only on counted work and is the same on every machine.
 /// @param settings valid except for their method
 MethodChoice choose_method(const SimulationSettings& settings);
+
+/// Returns the method that runs to be compared share: that of all, or else the cheaper in sum of those that each run
+/// can have. Returns nothing if there is none.
+std::optional<Method> shared_method(std::span<const MethodChoice> choices);
 
 /// Returns the method implied by solver settings: implicit for a linear solver, otherwise quasi-Newton. Returns nothing
 /// without such settings.
