@@ -415,22 +415,14 @@ struct NamedKey {
 std::vector<NamedKey> keys_named(std::string name) {
   std::replace(name.begin(), name.end(), '-', '_');
   std::vector<NamedKey> found;
-  const auto look = [&](const TableType& table) {
+  for_each_table([&](const TableType& table) {
     for (const Key& key : table.keys.all()) {
       if (key.name != name) continue;
       const bool pair = std::holds_alternative<Eigen::Vector2i*>(key.target) ||
                         std::holds_alternative<std::optional<Eigen::Vector2i>*>(key.target);
       found.push_back({table.name + "." + key.name, pair});
     }
-  };
-  ClothTable cloth;
-  SeamTable seam;
-  Scene scene;
-  for (const TableType& table : scene_tables(cloth, seam, scene)) look(table);
-  for (const EffectType& type : effect_types()) {
-    Effect effect = type.make();
-    look(effect_table(type, effect));
-  }
+  });
   return found;
 }
 

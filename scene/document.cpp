@@ -272,19 +272,11 @@ std::optional<TomlValue> default_array(Target target, const Place& place) {
 /// Calls `use` with a key of a table, "video" or "effects.wind", if it exists. The key's target has its default.
 template <class Use>
 void with_key(const std::string& table, const std::string& name, Use use) {
-  const auto look_in = [&](const TableType& type) {
+  for_each_table([&](const TableType& type) {
     for (const Key& key : type.keys.all()) {
       if (type.name == table && key.name == name) use(key);
     }
-  };
-  ClothTable cloth;
-  SeamTable seam;
-  Scene scene;
-  for (const TableType& type : scene_tables(cloth, seam, scene)) look_in(type);
-  for (const EffectType& type : effect_types()) {
-    Effect effect = type.make();
-    look_in(effect_table(type, effect));
-  }
+  });
 }
 
 /// Returns the value to add for a missing name path[depth]: its default if the path goes on to one of its items,

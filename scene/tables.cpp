@@ -420,16 +420,20 @@ std::string section(const TableText& table) {
 
 }  // namespace
 
-std::vector<TableText> reference_tables() {
+void for_each_table(const std::function<void(const TableType&)>& use) {
   ClothTable cloth;
   SeamTable seam;
   Scene scene;
-  std::vector<TableText> tables;
-  for (const TableType& table : scene_tables(cloth, seam, scene)) tables.push_back(text_of(table));
+  for (const TableType& table : scene_tables(cloth, seam, scene)) use(table);
   for (const EffectType& type : effect_types()) {
     Effect effect = type.make();
-    tables.push_back(text_of(effect_table(type, effect)));
+    use(effect_table(type, effect));
   }
+}
+
+std::vector<TableText> reference_tables() {
+  std::vector<TableText> tables;
+  for_each_table([&](const TableType& table) { tables.push_back(text_of(table)); });
   return tables;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,6 +71,9 @@ std::vector<TableType> scene_tables(ClothTable& cloth, SeamTable& seam, Scene& s
 
 /// Returns the table of an effect of this type; its keys write to the effect.
 TableType effect_table(const EffectType& type, Effect& effect);
+
+/// Calls `use` with every table of a scene, its effects included. The keys' targets have their defaults.
+void for_each_table(const std::function<void(const TableType&)>& use);
 
 /// A key in the reference.
 struct KeyText {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "core/files.hpp"
 #include "tests/cli/run_drape.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/read_picture.hpp"
 
 namespace drape::compare_cli {
@@ -46,7 +46,7 @@ TEST(Compare, GivesAllTheMethodThatIsChosenOnce) {
   folder.write("a.toml", scene);
   const Finished finished = drape(folder, "compare a.toml --vary cloth.stiffness=10,1e9 -o a.html");
   EXPECT_EQ(finished.code, 0) << finished.text;
-  const std::string page = read_file(folder.path("a.html"), std::size_t{1} << 28);
+  const std::string page = test::content(folder.path("a.html"));
   EXPECT_NE(page.find("quasi-newton"), std::string::npos);
   EXPECT_EQ(page.find("verlet"), std::string::npos);
 }

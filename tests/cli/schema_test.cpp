@@ -144,14 +144,7 @@ TEST(Schema, RefusesWhatDrapeRefuses) {
     }
     if (table.name != "cloth") add(cloth + "[" + table.name + "]\nnonsense = 1\n");
   };
-  ClothTable cloth_table;
-  SeamTable seam;
-  Scene scene;
-  for (const TableType& table : scene_tables(cloth_table, seam, scene)) add_keys(table);
-  for (const EffectType& type : effect_types()) {
-    Effect effect = type.make();
-    add_keys(effect_table(type, effect));
-  }
+  for_each_table(add_keys);
   for (const char* text :
        {"", "nonsense = 1\n", "[cloth]\nstiffness = 1\n", "[cloth]\nmesh = { grid = [2, 2] }\n",
         "[cloth]\nmesh = { grid = [0, 2] }\nstiffness = 1\n", "[cloth]\nmesh = { grid = [2] }\nstiffness = 1\n",
