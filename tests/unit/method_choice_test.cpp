@@ -70,7 +70,7 @@ TEST(MethodChoice, CountsWhatInternalDampingCosts) {
 
 TEST(MethodChoice, IsSharedByRunsThatAreCompared) {
   const auto choice = [](Method method, double verlet, double quasi_newton, bool only) {
-    return MethodChoice{.method = method, .verlet = verlet, .quasi_newton = quasi_newton, .only = only};
+    return MethodChoice{.method = method, .verlet = verlet, .quasi_newton = quasi_newton, .reason = {}, .only = only};
   };
   const MethodChoice cheap = choice(Method::verlet, 1, 2, false), stiff = choice(Method::quasi_newton, 5, 3, false),
                      forced = choice(Method::verlet, 9, 1, true), barred = choice(Method::quasi_newton, 1, 9, true);
