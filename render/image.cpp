@@ -84,20 +84,6 @@ Image montage(const std::vector<const Image*>& pictures, int columns, int gap, s
 
 namespace {
 
-/// Detects a truncated file by its end. OpenCV's PNG and JPEG readers would fill the missing part with grey and only
-/// print a warning.
-bool is_cut(std::span<const unsigned char> bytes) {
-  const auto starts_with = [&bytes](std::initializer_list<unsigned char> signature) {
-    return bytes.size() >= signature.size() && std::equal(signature.begin(), signature.end(), bytes.begin());
-  };
-  const auto contains = [&bytes](std::initializer_list<unsigned char> end) {
-    return std::search(bytes.begin(), bytes.end(), end.begin(), end.end()) != bytes.end();
-  };
-  if (starts_with({0x89, 'P', 'N', 'G'})) return !contains({'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82});
-  if (starts_with({0xFF, 0xD8, 0xFF})) return !contains({0xFF, 0xD9});
-  return false;
-}
-
 void require_size(const std::filesystem::path& file, int width, int height, int largest) {
   if (std::max(width, height) > largest) {
     throw UsageError(fmt::format("the texture {} has {}x{} pixels; at most {}x{} can be drawn", shown(file), width,
@@ -126,7 +112,7 @@ cv::Mat read_image(const std::filesystem::path& file, int largest) {
   const std::span bytes(reinterpret_cast<const unsigned char*>(content.data()), content.size());
   if (const auto size = size_in_header(bytes)) require_size(file, size->width, size->height, largest);
   cv::Mat image;
-  if (!bytes.empty() && !is_cut(bytes)) {
+  if (!bytes.empty()) {
     try {
       image = decode_picture(content, cv::IMREAD_COLOR);
     } catch (const cv::Exception& error) {

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 #include <mutex>
+#include <opencv2/imgcodecs.hpp>
 
 #include "core/console.hpp"
 #include "core/installation.hpp"
 #include "drape/core/error.hpp"
+#include "output/codecs/jpeg.hpp"
 #include "output/codecs/png.hpp"
 
 namespace drape {
@@ -33,7 +35,9 @@ const Codecs& codecs() {
 }
 
 cv::Mat decode_picture(std::string_view bytes, int flags) {
-  return is_png(bytes) ? bgr_from_png(bytes) : codecs().decode(bytes, flags);
+  if (is_png(bytes)) return bgr_from_png(bytes);
+  if (is_jpeg(bytes)) return bgr_from_jpeg(bytes, (flags & cv::IMREAD_IGNORE_ORIENTATION) == 0);
+  return codecs().decode(bytes, flags);
 }
 
 }  // namespace drape

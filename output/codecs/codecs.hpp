@@ -17,9 +17,9 @@ using VideoPen = std::function<void(const cv::Mat& bgr)>;
 /// @throws std::runtime_error with the reason if it cannot be written
 using AnimationPen = std::function<void(const cv::Mat* rgb)>;
 
-/// Encoders and decoders of videos, and decoders of pictures other than PNG: OpenCV and FFmpeg, in a module beside the
-/// program (output/codecs/codecs_module.cpp). Linking its two hundred libraries would make each start ten times slower.
-/// Function pointers, not a class: sanitizers would see two different types in program and module.
+/// Encoders and decoders of videos, and decoders of pictures other than PNG and JPEG: OpenCV and FFmpeg, in a module
+/// beside the program (output/codecs/codecs_module.cpp). Linking its two hundred libraries would make each start ten
+/// times slower. Function pointers, not a class: sanitizers would see two different types in program and module.
 struct Codecs {
   /// Decodes a picture file from memory, as cv::imdecode(); prints nothing.
   /// @param flags cv::ImreadModes
@@ -50,8 +50,8 @@ std::filesystem::path codecs_module();
 /// @throws OutputError if they cannot be loaded
 const Codecs& codecs();
 
-/// Decodes a picture file from memory to blue, green, red. A PNG does not load codecs().
-/// @param flags cv::ImreadModes; ignored for a PNG
+/// Decodes a picture file from memory to blue, green, red. PNG and JPEG do not load codecs().
+/// @param flags cv::ImreadModes; of PNG and JPEG always all three colours
 /// @returns an empty picture if the bytes are damaged
 /// @throws OutputError as codecs(), cv::Exception
 cv::Mat decode_picture(std::string_view bytes, int flags);
