@@ -104,6 +104,7 @@ int main(int argc, char** argv) {
   for (std::string& name : drape::register_equal_accuracy()) names.push_back(std::move(name));
 
   std::vector<std::string> schemes = drape::register_time_schemes();
+  std::vector<std::string> peers = drape::register_peers();
   std::vector<std::string> effects = drape::register_effect_costs();
   std::vector<std::string> drawing = drape::register_drawing();
   for (std::string& name : drawing) effects.push_back(std::move(name));
@@ -122,6 +123,7 @@ int main(int argc, char** argv) {
 
   drape::RatioReporter reporter({{.first = "drape", .second = "textbook", .cases = std::move(names)},
                                  {.first = "second order", .second = "first order", .cases = std::move(schemes)},
+                                 {.first = "drape", .second = "xpbd", .cases = std::move(peers)},
                                  {.first = "with", .second = "without", .cases = std::move(effects)},
                                  {.first = "drape", .second = "ffmpeg", .cases = std::move(encoding)},
                                  {.first = "fronts", .second = "cholmod", .cases = std::move(factoring)}});

@@ -10,6 +10,7 @@
 #include "bench/moving_cloth.hpp"
 #include "bench/ratio_table.hpp"
 #include "bench/textbook.hpp"
+#include "bench/xpbd.hpp"
 #include "drape/sim/effects/damping.hpp"
 #include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/sphere.hpp"
@@ -79,8 +80,66 @@ std::vector<std::string> register_time_schemes() {
 
 namespace {
 
-constexpr int grid_cells = 20;
+/// The falling cloth of scene 3, to an error: by the default method, in substeps of h, and by XPBD in enough steps.
+struct Peer {
+  std::string name;
+  int cells, xpbd_steps;
+};
+
 constexpr double step = 0.02;  // h [s]
+
+Cloth hanging_cloth(int cells) {
+  const Mesh mesh = make_grid(cells, cells);
+  return make_cloth(mesh, mesh, 1, 180, {0, cells});
+}
+
+Subject make_by_default(const Peer& peer) {
+  SimulationSettings settings;
+  settings.cloth = hanging_cloth(peer.cells);
+  settings.step = step;
+  settings.effects = {Gravity{}};
+  const auto simulation = std::make_shared<Simulation>(std::move(settings));
+  return {.restore = [simulation, start = simulation->state()] { simulation->restore(start); },
+          .run =
+              [simulation] {
+                for (int i = 0; i < std::lround(duration / step); ++i) simulation->step();
+                return 1;  // motion
+              }};
+}
+
+Subject make_by_xpbd(const Peer& peer) {
+  const Cloth cloth = hanging_cloth(peer.cells);
+  const auto xpbd = std::make_shared<textbook::Xpbd>(cloth, textbook::Settings{.step = duration / peer.xpbd_steps});
+  return {.restore =
+              [xpbd, cloth] {
+                xpbd->positions = cloth.positions;
+                xpbd->velocities = cloth.velocities;
+              },
+          .run =
+              [xpbd, steps = peer.xpbd_steps] {
+                for (int i = 0; i < steps; ++i) xpbd->step();
+                return 1;  // motion
+              }};
+}
+
+}  // namespace
+
+std::vector<std::string> register_peers() {
+  const std::vector<Peer> peers{{"scene_3_within_1_cm/20", 20, 650},
+                                {"scene_3_within_1_mm/20", 20, 4000},
+                                {"scene_3_within_1_cm/100", 100, 2800}};
+  std::vector<std::string> names;
+  for (const Peer& peer : peers) {
+    register_subject(peer.name, "drape", 1, [peer] { return make_by_default(peer); });
+    register_subject(peer.name, "xpbd", 1, [peer] { return make_by_xpbd(peer); });
+    names.push_back(peer.name);
+  }
+  return names;
+}
+
+namespace {
+
+constexpr int grid_cells = 20;
 // Steps of the textbook's motion from rest. Over the sphere, the cloth touches it from the first of them on.
 constexpr int first_step = 30, last_step = 130, every = 5;
 constexpr int measured_steps = (last_step - first_step) / every;

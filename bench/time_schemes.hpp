@@ -9,6 +9,10 @@ namespace drape {
 /// cases.
 std::vector<std::string> register_time_schemes();
 
+/// Registers the motion of scene 3's cloth by the default method and by XPBD, whose steps are as many as its error
+/// needs, as CASE/drape and CASE/xpbd. Returns the names of the cases.
+std::vector<std::string> register_peers();
+
 /// Registers the rows that compare a quasi-Newton step with a textbook Newton step of equal accuracy, on the homework's
 /// 20×20 cloth with k = 180 and h = 0.02 s, with and without the sphere; returns their names.
 std::vector<std::string> register_equal_accuracy();

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 
+#include "bench/xpbd.hpp"
 #include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/wind.hpp"
@@ -203,6 +204,22 @@ TEST(EqualErrors, AreThoseOfTheBenchmark) {
                                      {Method::semi_implicit, 420, 0, 1e-3},
                                      {Method::verlet, 220, 0, 1e-4},
                                      {Method::semi_implicit, 4200, 0, 1e-4}});
+}
+
+TEST(EqualErrors, OfXpbdAreThoseOfTheBenchmark) {
+  constexpr double duration = 0.42;
+  const Homework& scene = homework_scenes[2];
+  const State exact = run(settings_of(scene, Method::verlet), duration, 21'000);
+  const Cloth& cloth = settings_of(scene, Method::verlet).cloth;
+  for (const auto& [steps, error] : {std::pair{650, 1e-2}, {4000, 1e-3}}) {
+    textbook::Xpbd xpbd(cloth, {.step = duration / steps});
+    xpbd.positions = cloth.positions;
+    xpbd.velocities = cloth.velocities;
+    for (int step = 0; step < steps; ++step) xpbd.step();
+    const double reached = (xpbd.positions - exact.x).rowwise().norm().maxCoeff();
+    EXPECT_LE(reached, error);
+    EXPECT_GE(reached, 0.85 * error) << "fewer steps would do";
+  }
 }
 
 // Verlet is reversible: the same steps lead back.
