@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "sim/contact/impulse_contact.hpp"
-#include "sim/contact/seam_contacts.hpp"
+#include "sim/contact/seams.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/schemes/sdirk2.hpp"
 #include "sim/step_dissipation.hpp"

@@ -14,7 +14,7 @@
 #include "sim/collision/monotone_sheet.hpp"
 #include "sim/collision/placed_mesh.hpp"
 #include "sim/contact/contact.hpp"
-#include "sim/contact/seam_distances.hpp"
+#include "sim/contact/seams.hpp"
 
 namespace drape {
 
