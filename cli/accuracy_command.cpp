@@ -86,7 +86,7 @@ std::string numbers(const char* option, const std::vector<double>& values) {
   return text.empty() ? text : fmt::format(" {} {}", option, text);
 }
 
-/// Returns the command line as text.
+/// Returns the command line without options that change no result.
 std::string command_line(const AccuracyArguments& arguments) {
   std::string text = "drape study accuracy";
   for (const std::string& scene : arguments.scenes) text += " " + shell_file(scene);
@@ -148,6 +148,7 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   study.provenance = study_provenance();
   const std::vector<std::string> names = unique_names(scenes);
   AccuracyStudy begun = arguments.resume ? begun_study(arguments.files.folder, study.command) : AccuracyStudy{};
+  study.typed_command = begun.typed_command.empty() ? common.command : begun.typed_command;
   study.seconds = begun.seconds;
   return run_study(
       arguments.files, common, [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {

@@ -97,7 +97,9 @@ std::string report_option(const CheckArguments& arguments) {
 
 /// Returns the options without effect on the result of a single scene.
 std::string scene_run_options(const CheckArguments& arguments) {
-  return report_option(arguments) + (arguments.threads > 0 ? fmt::format(" --threads {}", arguments.threads) : "");
+  std::string text = report_option(arguments);
+  if (arguments.style != FigureStyle::screen) text += fmt::format(" --style {}", name_of(arguments.style));
+  return text + (arguments.threads > 0 ? fmt::format(" --threads {}", arguments.threads) : "");
 }
 
 /// Returns the options without effect on the results: report folder and parallelism.

@@ -149,7 +149,7 @@ void add_style_option(CLI::App& subcommand, FigureStyle& style) {
       .add_option_function<std::string>(
           "--style",
           [&style](const std::string& given) {
-            const std::vector<std::string> names{"screen", "paper", "paper-wide"};  // in the enumeration's order
+            const std::vector<std::string> names(figure_style_names.begin(), figure_style_names.end());
             const auto found = std::ranges::find(names, given);
             if (found == names.end()) {
               throw CLI::ValidationError(

@@ -191,7 +191,7 @@ struct ValidationArguments {
   bool report_only = false, resume = false;
 };
 
-/// Returns the command line without options that do not change the result.
+/// Returns the command line without options that change no result.
 std::string command_line(const ValidationArguments& arguments) {
   std::string text = "drape study validation";
   for (const std::string& name : arguments.options.cases) text += " " + shell_word(name);
@@ -239,6 +239,7 @@ ExitCode run_validation(const ValidationArguments& arguments, const CommonOption
   options.jobs = arguments.jobs > 0 ? arguments.jobs : processors_left();
   ValidationStudy study = plan_validation(options);
   study.command = command_line(arguments);
+  study.typed_command = common.command;
   study.provenance = study_provenance();
   if (arguments.resume && std::filesystem::exists(file)) read_validation_runs(file, study);
   const double before = study.seconds;

@@ -141,6 +141,27 @@ std::vector<NamedChart> comparison_charts(const CompareResult& result) {
   return charts;
 }
 
+namespace {
+
+/// Returns the answer in one sentence: the motion that is furthest from the first, if the distances are known.
+std::string headline(const CompareResult& result) {
+  const ComparedMotion* furthest = nullptr;
+  bool known = true;
+  for (const ComparedMotion& motion : result.motions) {
+    if (&motion == &result.motions.front()) continue;
+    const std::optional<double> most = largest(motion.most);
+    known = known && most;
+    if (most && (furthest == nullptr || *most > *largest(furthest->most))) furthest = &motion;
+  }
+  const std::string& first = result.motions.front().label;
+  const double most = furthest == nullptr ? 0 : *largest(furthest->most);
+  if (most > 0) return fmt::format("{} is up to {} from {}", furthest->label, readable_length(most), first);
+  return known ? fmt::format("All {} motions are the same", result.motions.size())
+               : fmt::format("{} motions side by side", result.motions.size());
+}
+
+}  // namespace
+
 std::string comparison_page(const CompareResult& result, const std::vector<PageMoment>& moments, std::size_t poster,
                             const std::string& bar, const std::string& command) {
   std::vector<html::Finding> found;
@@ -157,7 +178,7 @@ std::string comparison_page(const CompareResult& result, const std::vector<PageM
   html::Page page;
   page.title = "drape compare";
   page.kind = "drape compare";
-  page.heading = fmt::format("{} motions side by side", result.motions.size());
+  page.heading = headline(result);
   page.introduction = html::findings(found) + html::command("Run this comparison again", command);
   page.content = films(result, moments, poster, bar) + players(result) +
                  html::section(2, "figures", "Figures", figures_table(result)) +

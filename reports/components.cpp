@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 #include "reports/diagram.hpp"
@@ -25,12 +26,10 @@ std::string tone_class(Tone tone) {
   return "";
 }
 
-/// Estimates whether a table fits a window of 390 pixels.
-bool fits_phone(const Table& table) {
-  constexpr double room = 350, letter = 8, space = 22, figure = 192;  // [pixels]
-  const auto width = [](const Markup& cell) {
-    return cell.html().find("<img") == std::string::npos ? letter * letters(plain_text(cell)) : figure;
-  };
+/// Returns the width of a table's columns, each as wide as its widest cell.
+/// @param space between two columns
+template <class Width>
+double width_of(const Table& table, double space, Width width) {
   double total = 0;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     double widest = width(table.columns[c].title);
@@ -38,7 +37,26 @@ bool fits_phone(const Table& table) {
       widest = std::max(widest, c < cells.size() ? width(cells[c]) : 0);
     total += widest + space;
   }
-  return total <= room;
+  return total;
+}
+
+/// Estimates whether a table fits a window of 390 pixels.
+bool fits_phone(const Table& table) {
+  constexpr double room = 350, letter = 8, space = 22, figure = 192;  // [pixels]
+  return width_of(table, space, [](const Markup& cell) {
+           return cell.html().find("<img") == std::string::npos ? letter * letters(plain_text(cell)) : figure;
+         }) <= room;
+}
+
+/// Estimates whether a table fits A4 in small letters, with lines broken between words only.
+bool fits_paper(const Table& table) {
+  constexpr double room = 688, letter = 5.2, space = 5;  // [pixels]
+  return width_of(table, space, [](const Markup& cell) {
+           double longest = 0;
+           std::istringstream words(plain_text(cell));
+           for (std::string word; words >> word;) longest = std::max(longest, letter * letters(word));
+           return longest;
+         }) <= room;
 }
 
 }  // namespace
@@ -84,14 +102,16 @@ Markup copies(const std::vector<std::string>& forms, const std::string& of) {
 Markup table(const Table& table) {
   const auto cell = [&](std::string_view tag, std::size_t column, const Markup& content) {
     Attributes attributes;
+    std::string style = table.columns[column].numeric ? "number" : "";
     if (tag == "th") attributes.push_back({"scope", "col"});
-    if (table.columns[column].numeric) attributes.push_back({"class", "number"});
+    if (tag == "td" && content.html() == "–") style += style.empty() ? "none" : " none";  // a card leaves it out
+    if (!style.empty()) attributes.push_back({"class", style});
     if (tag == "td") attributes.push_back({"data-column", plain_text(table.columns[column].title)});
     // A card's grid takes the content as one item.
     const bool several = tag == "td" && content.html().find('<') != std::string::npos;
     return element(tag, attributes, several ? element("div", content) : content);
   };
-  std::string style = table.columns.size() > narrow ? "wide" : "";
+  std::string style = table.columns.size() <= narrow ? "" : fits_paper(table) ? "wide" : "wide crowded";
   if (!fits_phone(table)) style += style.empty() ? "cards" : " cards";
   Markup head, body;
   for (std::size_t c = 0; c < table.columns.size(); ++c) head += cell("th", c, table.columns[c].title);

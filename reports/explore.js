@@ -1,13 +1,11 @@
 "use strict";
-// Sortable tables with a filter, and pieces selected by lists.
+// Sortable tables, and pieces selected by lists.
 (() => {
   const all = (selector, root = document) => [...root.querySelectorAll(selector)];
   // Numbers before words, empty cells last.
   const rank = (text) => (text === "" || text === "–" ? 2 : Number.isNaN(Number(text)) ? 1 : 0);
   const compare = (a, b) =>
     rank(a) - rank(b) || (rank(a) === 0 ? Number(a) - Number(b) : a.localeCompare(b, undefined, { numeric: true }));
-
-  const manyRows = 12;
 
   for (const table of all(".sortable table")) {
     const body = table.tBodies[0];
@@ -29,23 +27,6 @@
         body.append(...sorted);
       });
     });
-    if (body.rows.length >= manyRows) addFilter(table, body);
-  }
-
-  // A field that leaves the rows with all of its words.
-  function addFilter(table, body) {
-    const input = document.createElement("input");
-    input.type = "search";
-    input.placeholder = input.ariaLabel = "Filter rows";
-    input.autocomplete = "off";
-    input.addEventListener("input", () => {
-      const words = input.value.toLowerCase().split(" ").filter(Boolean);
-      for (const row of body.rows) row.hidden = !words.every((word) => row.textContent.toLowerCase().includes(word));
-    });
-    const field = document.createElement("div");
-    field.className = "filters";
-    field.append(input);
-    table.closest(".table").before(field);
   }
 
   for (const root of all(".chooser")) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "reports/players.hpp"
+
 namespace drape::html {
 namespace {
 
@@ -14,7 +16,7 @@ Markup filter(const std::string& group, const std::string& label, std::size_t co
                  fmt::format("{} {}", label, count));
 }
 
-/// Returns a button for each group with its number of entries, and a field for a part of the name.
+/// Returns a button for each group with its number of entries, and a field for words of a row.
 Markup filters(const Listing& listing) {
   std::vector<std::pair<std::string, std::size_t>> groups;
   for (const Listing::Entry& entry : listing.entries) {
@@ -29,8 +31,8 @@ Markup filters(const Listing& listing) {
   for (const auto& [group, count] : groups) parts += filter(group, group, count, false);
   return element("div", {{"class", "filters"}},
                  parts + element("input", {{"type", "search"},
-                                           {"placeholder", "Filter by name"},
-                                           {"aria-label", "Filter by name"},
+                                           {"placeholder", "Filter rows"},
+                                           {"aria-label", "Filter rows"},
                                            {"autocomplete", "off"}}));
 }
 
@@ -55,10 +57,10 @@ Markup listing(const Listing& listing) {
     }
     sections += element("div", {{"class", "entry"}, {"data-group", entry.group}}, links(listing, i) + entry.section);
   }
-  if (!many) return table(listing.table) + sections;
-  return element(
-      "div", {{"class", "listing"}},
-      element("div", {{"class", "list"}, {"id", list_id}}, filters(listing) + table(listing.table)) + sections);
+  const Markup overview = listing.sortable ? sortable_table(listing.table) : table(listing.table);
+  if (!many) return overview + sections;
+  return element("div", {{"class", "listing"}},
+                 element("div", {{"class", "list"}, {"id", list_id}}, filters(listing) + overview) + sections);
 }
 
 }  // namespace drape::html

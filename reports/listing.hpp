@@ -18,12 +18,13 @@ struct Listing {
     Markup section;
   };
   std::vector<Entry> entries;  ///< in the order of the rows
+  bool sortable = false;       ///< the table can be sorted by any column
 };
 
 /// Fewest entries for which a page opens them one at a time.
 inline constexpr std::size_t many_entries = 6;
 
-/// Returns the table and the sections. With many entries, the table has filters by group and by name, and a section
+/// Returns the table and the sections. With many entries, the table has filters by group and by words, and a section
 /// opens in place of the table. In print and without scripts everything is visible.
 Markup listing(const Listing& listing);
 

@@ -8,7 +8,7 @@
     const entries = all(".entry", root);
     const rows = all("tbody tr", list);
     const buttons = all(".filters button", root);
-    const name = root.querySelector(".filters input");
+    const field = root.querySelector(".filters input");
 
     const entryOf = (id) => {
       const target = id && document.getElementById(id);
@@ -20,18 +20,18 @@
       list.hidden = open !== null;
       for (const entry of entries) entry.hidden = entry !== open;
       if (!open) return;
-      const folded = open.querySelector("section > h2 + details");
+      const folded = open.querySelector("section > :is(h2, h3) + details");
       if (folded) folded.open = true;
       scrollTo({ top: open.getBoundingClientRect().top + scrollY });
     }
 
     function filter() {
       const group = buttons.find((button) => button.ariaPressed === "true").dataset.group;
-      const part = name.value.trim().toLowerCase();
+      const words = field.value.toLowerCase().split(" ").filter(Boolean);
       for (const row of rows) {
-        const link = row.querySelector("a");
-        const entry = entryOf(link.hash.slice(1));
-        row.hidden = (group !== "" && entry.dataset.group !== group) || !link.textContent.toLowerCase().includes(part);
+        const entry = entryOf(row.querySelector("a").hash.slice(1));
+        const text = row.textContent.toLowerCase();
+        row.hidden = (group !== "" && entry.dataset.group !== group) || !words.every((word) => text.includes(word));
       }
     }
 
@@ -41,7 +41,7 @@
         filter();
       });
     }
-    name.addEventListener("input", filter);
+    field.addEventListener("input", filter);
     addEventListener("hashchange", show);
     show();
   }

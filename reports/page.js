@@ -19,6 +19,27 @@
   }
   all(".copy").forEach((button) => button.addEventListener("click", () => copy(button)));
 
+  // Browsers may break a line after a hyphen. These stay whole where they fit a line: options, words, "1e-05".
+  function keepWhole(place) {
+    for (const text of [...place.childNodes].filter((node) => node.nodeType === Node.TEXT_NODE)) {
+      const parts = text.data.split(/(\S*-\S+)/);
+      if (parts.length === 1) continue;
+      const pieces = parts.map((part, i) => {
+        if (i % 2 === 0) return part;
+        const whole = document.createElement("span");
+        whole.className = "whole";
+        whole.textContent = part;
+        return whole;
+      });
+      if (place.localName === "td") {
+        const cell = document.createElement("div"); // one item of a card's grid
+        cell.append(...pieces);
+        text.replaceWith(cell);
+      } else text.replaceWith(...pieces);
+    }
+  }
+  all(".command code, td, td > div, .findings li, main p").forEach(keepWhole);
+
   // Picture comparison.
 
   const blinkInterval = 700; // ms

@@ -147,12 +147,16 @@ void write_set_table(const ResultTable& table, const std::filesystem::path& fold
   write_file_atomically(folder / (table.name + ".tex"), to_latex(table));
 }
 
-html::Markup to_html(const ResultTable& table) {
+html::Table page_table(const ResultTable& table) {
   html::Table shown{table.title, {}, {}};
   for (std::size_t c = 0; c < table.columns.size(); ++c)
     shown.columns.push_back({table.columns[c], is_numeric(table, c)});
   for (const auto& row : table.rows) shown.rows.emplace_back(row.begin(), row.end());
-  html::Markup markup = html::table(shown);
+  return shown;
+}
+
+html::Markup to_html(const ResultTable& table) {
+  html::Markup markup = html::table(page_table(table));
   for (const std::string& note : table.notes) markup += html::note(note);
   return markup;
 }

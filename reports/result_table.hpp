@@ -51,6 +51,8 @@ void write_table(const ResultTable& table, const std::filesystem::path& folder);
 /// Writes only NAME.md and NAME.tex.
 /// @throws OutputError
 void write_set_table(const ResultTable& table, const std::filesystem::path& folder);
+/// Returns the table for a page, without its notes.
+html::Table page_table(const ResultTable& table);
 html::Markup to_html(const ResultTable& table);
 
 }  // namespace drape

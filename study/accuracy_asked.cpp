@@ -298,7 +298,7 @@ ResultTable estimate_table(const SceneAccuracy& scene) {
       scene.name + "-estimates",
       fmt::format("{}: what a step says of its error, and what that is", scene.scene),
       {"method", "accuracy [m]", "steps judged before", "within a factor of 3", "worst: error by estimate",
-       "steps after", "worst after", "missed tenfold", "of these unreported", "not known"},
+       "steps after", "worst after", "missed tenfold", "missed, not reported", "not known"},
       {},
       {}};
   const auto ratio = [](double value) { return value > 0 ? fmt::format("{:.2f}", value) : "–"; };

@@ -11,6 +11,7 @@
 #include "core/text.hpp"
 #include "drape/scene/scene.hpp"
 #include "reports/chart.hpp"
+#include "reports/listing.hpp"
 #include "study/accuracy_asked.hpp"
 #include "study/profile.hpp"
 
@@ -39,6 +40,8 @@ std::string command_of(const SceneAccuracy& scene, const Again& again) {
   add("--tolerances", again.tolerances);
   add("--steps", again.steps);
   add("--accuracies", again.accuracies);
+  if (scene.options.patience != AccuracyOptions().patience)
+    text += " --patience " + plain_number(scene.options.patience);
   return text + runs_option(scene.options.runs);
 }
 
@@ -268,7 +271,7 @@ ResultTable checks_table(const std::vector<SceneAccuracy>& scenes) {
   ResultTable table{"asked-checks",
                     "What steps say of their errors, and what these are",
                     {"scene", "steps before", "within a factor of 3", "largest error by estimate", "steps after",
-                     "largest", "missed tenfold", "of these unreported"},
+                     "largest", "missed tenfold", "missed, not reported"},
                     {},
                     {}};
   const auto ratio = [](double value) { return value > 0 ? fmt::format("{:.2f}", value) : "–"; };
@@ -314,7 +317,7 @@ std::optional<StudySection> solve_summary(const std::vector<SceneAccuracy>& scen
   std::vector<SceneAccuracy> solved;
   std::ranges::copy_if(scenes, std::back_inserter(solved), [](const SceneAccuracy& s) { return !s.points.empty(); });
   if (solved.empty()) return std::nullopt;
-  return StudySection{"Solves by how near they end", {}, {solve_table(solved)}, {}, {}};
+  return StudySection{"Solve cost by error", {}, {solve_table(solved)}, {}, {}};
 }
 
 std::optional<double> fixed_step_cost(const SceneAccuracy& scene, StepMethod method, double error) {
@@ -469,11 +472,33 @@ std::string headline(const std::vector<SceneAccuracy>& scenes) {
   return fmt::format("A step solved to 1 µm costs {} to {} µs", three_digits(least), three_digits(most));
 }
 
+/// Returns true if a page opens the scenes one at a time.
+bool has_list(const AccuracyStudy& study) { return study.scenes.size() >= html::many_entries; }
+
+/// Returns the first answer of cheapest_table(), with the names of its first columns.
+std::vector<std::string> first_cheapest(const ResultTable& cheapest) {
+  for (const std::vector<std::string>& row : cheapest.rows) {
+    if (row.at(3) != "–") return {row.begin(), row.begin() + 6};
+  }
+  return {"–", "–", "none", "–", "–", "–"};
+}
+
+/// Returns the scenes with the cheapest method for the first kind of error that each knows.
+StudyList scene_list(const std::vector<SceneAccuracy>& scenes) {
+  StudyList list{"scenes", {"answers", "The cheapest method for the first kind of error that is known", {}, {}, {}}};
+  list.table.columns = {"scene", "error", "below", "cheapest", "at", "cost", "unit"};
+  for (const SceneAccuracy& scene : scenes) {
+    std::vector<std::string>& row = list.table.rows.emplace_back(first_cheapest(cheapest_table(scene)));
+    row.insert(row.begin(), scene.scene);
+  }
+  return list;
+}
+
 /// Returns the section for a reader with a scene to compute: the pictures, and a method for each error.
 StudySection answer_section(const AccuracyStudy& study) {
   StudySection answer{
       "What to take",
-      {"Choose the kind of error that matters to you, and how large it may be: there stand the cheapest "
+      {"Choose the kind of error that matters to you, and how large it may be: the table shows the cheapest "
        "method, its setting and its cost. The evidence follows.",
        "Whole: the distance from the true motion. Its three parts are told apart below. Solve: how far "
        "one step is from its exact result. Motion: what these errors have accumulated to. Time step: "
@@ -481,6 +506,7 @@ StudySection answer_section(const AccuracyStudy& study) {
       {},
       {},
       {}};
+  if (has_list(study)) return answer;  // each scene's section has its own
   for (std::size_t i = 0; i < study.scenes.size(); ++i) {
     answer.pictures.insert(answer.pictures.end(), study.pictures[i].begin(), study.pictures[i].end());
     answer.tables.push_back(answer_table(study.scenes[i]));
@@ -500,17 +526,25 @@ StudyReport accuracy_report(const AccuracyStudy& study) {
       "Error against computing time: of a step relative to the exact minimiser, and of a motion relative to the "
       "reference motion. Each point is a method with a tolerance, a time step or a requested accuracy. Lower and "
       "further left is better.";
-  report.command = study.command;
+  report.command = study.typed_command.empty() ? study.command : study.typed_command;
   report.seconds = study.seconds;
   report.provenance = study.provenance;
   report.answer = answer_section(study);
+  if (has_list(study)) report.list = scene_list(scenes);
   if (auto summary = asked_summary(scenes)) report.sections.push_back(std::move(*summary));
   if (auto summary = solve_summary(scenes)) report.sections.push_back(std::move(*summary));
   if (auto profile = profile_section(scenes)) report.sections.push_back(std::move(*profile));
   for (const SceneAccuracy& scene : scenes) {
+    const std::size_t before = report.findings.size();
     add_findings(report, scene);
     add_asked_findings(report, scene);
+    for (std::size_t f = before; f < report.findings.size(); ++f) report.findings[f].of = scene.scene;
     StudySection section{scene.scene, scene.notes, {}, accuracy_charts(scene), {}};
+    if (has_list(study)) {
+      section.group = first_cheapest(cheapest_table(scene)).at(2);
+      section.pictures = study.pictures[static_cast<std::size_t>(&scene - scenes.data())];
+      section.tables.push_back(answer_table(scene));
+    }
     for (NamedChart& chart : asked_charts(scene)) section.charts.push_back(std::move(chart));
     if (!scene.points.empty()) section.tables.push_back(tolerance_table(scene));
     if (!scene.steps.empty()) section.tables.push_back(step_table(scene));

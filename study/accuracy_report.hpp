@@ -37,11 +37,12 @@ std::optional<StudySection> solve_summary(const std::vector<SceneAccuracy>& scen
 
 /// An accuracy study of several scenes, complete for its report.
 struct AccuracyStudy {
-  std::string command;  ///< command to reproduce it
+  std::string command;  ///< options that decide its results: a study continues only one with the same
   std::vector<SceneAccuracy> scenes;
   std::vector<std::vector<StudyPicture>> pictures;                   ///< animations of each scene; same size as scenes
   double seconds = 0;                                                ///< duration of the study
   std::vector<std::pair<std::string, std::string>> provenance = {};  ///< program and machine, see study_provenance()
+  std::string typed_command = {};                                    ///< command line as typed; empty: `command`
 };
 
 /// Returns the report of a study for all output formats.

@@ -416,6 +416,9 @@ class StudyReader {
       record.fail(record.line(), fmt::format("expected runs of format {}, found {}: of another drape", format, found));
     }
     record("command", study_.command);
+    std::optional<std::string> typed;
+    record("typed_command", typed);
+    study_.typed_command = typed.value_or("");
     record("seconds", study_.seconds);
     std::vector<std::string> names, values;
     record("measured_on", names);
@@ -469,6 +472,7 @@ std::string runs_csv(const AccuracyStudy& study) {
   f.begin({{}, "study", {}, {}, {}});
   f("format", format);
   f("command", study.command);
+  if (!study.typed_command.empty()) f("typed_command", study.typed_command);
   f("seconds", study.seconds);
   std::vector<std::string> names, values;
   for (const auto& [name, value] : study.provenance) {

@@ -188,8 +188,8 @@ std::optional<StudySection> profile_section(const std::vector<SceneAccuracy>& sc
   section.text.insert(
       section.text.begin(),
       fmt::format("{} problems, each a scene and how far the cloth may be from the reference at the first "
-                  "of the times compared; {} of them nobody solves. (Dolan and Moré 2002.)",
-                  times.problems.size(), unsolved));
+                  "of the times compared{}. (Dolan and Moré 2002.)",
+                  times.problems.size(), unsolved > 0 ? fmt::format("; no method solved {}", unsolved) : ""));
   section.charts.push_back(profile_chart(curves));
   section.tables = {profile_table(curves), times_table(times)};
   return section;

@@ -1,10 +1,13 @@
 #include "study/report.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <iterator>
 
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "reports/latex.hpp"
+#include "reports/listing.hpp"
 #include "reports/page.hpp"
 #include "sim/kernels/kernels.hpp"
 
@@ -32,9 +35,17 @@ html::Markup to_html(const std::vector<StudyMotion>& motions, const std::string&
   return content;
 }
 
+html::Markup to_html(const std::vector<StudyFinding>& list) {
+  std::vector<html::Finding> findings;
+  for (const StudyFinding& finding : list) findings.push_back({finding.tone, to_html(finding)});
+  return findings.empty() ? html::Markup() : html::findings(findings);
+}
+
 /// @param is_answer true for the answer section, which begins with its tables
-html::Markup to_html(const StudySection& section, const std::string& id, bool is_answer = false) {
-  html::Markup content, tables;
+/// @param before    content between heading and text
+html::Markup to_html(const StudySection& section, const std::string& id, bool is_answer = false,
+                     const html::Markup& before = {}) {
+  html::Markup content = before, tables;
   for (const ResultTable& table : section.tables) tables += to_html(table);
   if (is_answer) content += tables;
   for (const std::string& paragraph : section.text) content += html::paragraph(paragraph);
@@ -75,11 +86,40 @@ std::string to_markdown(const StudySection& section) {
   return text;
 }
 
+/// Returns the answer with the table of the list, if any, as its first table.
+std::optional<StudySection> whole_answer(const StudyReport& report) {
+  std::optional<StudySection> answer = report.answer;
+  if (answer && report.list) answer->tables.insert(answer->tables.begin(), report.list->table);
+  return answer;
+}
+
 /// Returns all sections in reading order.
 std::vector<StudySection> all_sections(const StudyReport& report) {
   std::vector<StudySection> sections = report.sections;
-  if (report.answer) sections.insert(sections.begin(), *report.answer);
+  if (const auto answer = whole_answer(report)) sections.insert(sections.begin(), *answer);
   return sections;
+}
+
+bool is_listed(const StudySection& section) { return !section.group.empty(); }
+
+std::string anchor(std::size_t section) { return fmt::format("section-{}", section + 1); }
+
+/// Returns the listed sections, which begin with their findings, under the list's table.
+html::Markup list_page(const StudyReport& report) {
+  html::Listing listing{report.list->kind, page_table(report.list->table), {}};
+  for (std::size_t i = 0; i < report.sections.size(); ++i) {
+    const StudySection& section = report.sections[i];
+    if (!is_listed(section)) continue;
+    std::vector<StudyFinding> own;
+    std::ranges::copy_if(report.findings, std::back_inserter(own),
+                         [&](const StudyFinding& finding) { return finding.of == section.title; });
+    html::Markup& name = listing.table.rows.at(listing.entries.size()).front();
+    name = html::link("#" + anchor(i), name);
+    listing.entries.push_back({anchor(i), section.group, to_html(section, anchor(i), false, to_html(own))});
+  }
+  html::Markup page = html::listing(listing);
+  for (const std::string& note : report.list->table.notes) page += html::note(note);
+  return page;
 }
 
 /// Cuts a text to a width; a cut text ends with "…".
@@ -128,7 +168,7 @@ std::string to_text(const StudyReport& report, std::size_t width) {
     for (const ResultTable& table : section.tables) text += to_text(table, width) + "\n";
   };
   for (const StudySection& section : report.sections) add_tables(section);
-  if (report.answer) add_tables(*report.answer);  // the end stays visible in a terminal
+  if (const auto answer = whole_answer(report)) add_tables(*answer);  // the end stays visible in a terminal
   text += wrapped(report.headline, width) + "\n";
   for (const StudyFinding& f : report.findings) {
     text += wrapped(fmt::format("  {}{}{}\n", f.verdict, f.verdict.empty() ? "" : ": ", f.claim), width, 2);
@@ -145,7 +185,7 @@ std::string to_text(const StudyReport& report, std::size_t width) {
 std::string to_markdown(const StudyReport& report) {
   std::string text = fmt::format("# {}\n\n{}.\n\n{}\n\n", markdown(report.title), markdown(report.headline),
                                  markdown(report.introduction));
-  if (report.answer) text += to_markdown(*report.answer);
+  if (const auto answer = whole_answer(report)) text += to_markdown(*answer);
   for (const StudyFinding& f : report.findings) {
     text += fmt::format("- {}{} {}\n", f.verdict.empty() ? "" : "**" + markdown(f.verdict) + "** ", markdown(f.claim),
                         markdown(f.figures));
@@ -154,24 +194,46 @@ std::string to_markdown(const StudyReport& report) {
   return text + fmt::format("    {}\n", shown(report.command));
 }
 
+namespace {
+
+/// Returns the page's content if it shows all sections below each other.
+html::Markup plain_content(const StudyReport& report) {
+  html::Markup content;
+  if (const auto answer = whole_answer(report)) {
+    content = to_html(*answer, "answer", true) + html::section(2, "findings", "Findings", to_html(report.findings));
+  } else {
+    content = to_html(report.findings);
+  }
+  content += html::command("Run this study again", report.command);
+  for (std::size_t i = 0; i < report.sections.size(); ++i) content += to_html(report.sections[i], anchor(i));
+  return content;
+}
+
+/// Returns the page's content if its listed sections open one at a time. Above the list are only findings that are bad,
+/// or about the whole study; a section has its own.
+html::Markup listed_content(const StudyReport& report) {
+  std::vector<StudyFinding> first;
+  std::ranges::copy_if(report.findings, std::back_inserter(first), [](const StudyFinding& finding) {
+    return finding.of.empty() || finding.tone == html::Tone::bad;
+  });
+  html::Markup content = to_html(first) + html::command("Run this study again", report.command) + list_page(report);
+  if (report.answer) content += to_html(*report.answer, "answer", true);
+  for (std::size_t i = 0; i < report.sections.size(); ++i) {
+    if (!is_listed(report.sections[i])) content += to_html(report.sections[i], anchor(i));
+  }
+  return content;
+}
+
+}  // namespace
+
 std::string to_page(const StudyReport& report) {
-  std::vector<html::Finding> findings;
-  for (const StudyFinding& finding : report.findings) findings.push_back({finding.tone, to_html(finding)});
   html::Page page;
   page.kind = report.kind;
   page.title = report.title;
   page.heading = report.headline;
   page.introduction = html::paragraph(report.introduction);
-  if (report.answer) {
-    page.content =
-        to_html(*report.answer, "answer", true) + html::section(2, "findings", "Findings", html::findings(findings));
-  } else {
-    page.content = html::findings(findings);
-  }
-  page.content += html::command("Run this study again", report.command);
-  for (std::size_t i = 0; i < report.sections.size(); ++i) {
-    page.content += to_html(report.sections[i], fmt::format("section-{}", i + 1));
-  }
+  const bool listed = report.list && report.list->table.rows.size() >= html::many_entries;
+  page.content = listed ? listed_content(report) : plain_content(report);
   for (const auto& [name, value] : report.provenance.empty() ? study_provenance() : report.provenance) {
     page.foot.emplace_back(name, value);
   }

@@ -21,6 +21,7 @@ struct StudyFinding {
   std::string verdict;  ///< one word, if any: "confirmed"
   std::string claim;
   std::string figures;
+  std::string of = {};  ///< title of the section that it is about; empty: it is about the whole study
 };
 
 /// An animation of a study.
@@ -41,6 +42,13 @@ struct StudySection {
   std::vector<StudyPicture> pictures;
   std::vector<StabilityMap> maps = {};
   std::vector<StudyMotion> motions = {};  ///< motions for interactive viewing
+  std::string group = {};                 ///< filter that shows it in the report's list; empty: it is not listed
+};
+
+/// List of the sections with a group, one per case or scene. With many of them a page opens one at a time.
+struct StudyList {
+  std::string kind;   ///< plural noun of their subjects: "cases"
+  ResultTable table;  ///< a row per listed section, whose first cell is its name
 };
 
 /// The report of a study in reading order, findings first.
@@ -53,6 +61,7 @@ struct StudyReport {
   std::optional<StudySection> answer;  ///< the result for users, before the evidence
   std::vector<StudyFinding> findings;
   std::vector<StudySection> sections;
+  std::optional<StudyList> list = {};
   std::vector<ResultTable> data;                                     ///< tables written as CSV only
   double seconds = 0;                                                ///< duration of the study
   std::vector<std::pair<std::string, std::string>> provenance = {};  ///< empty: study_provenance()

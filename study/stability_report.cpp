@@ -47,7 +47,8 @@ ResultTable border_table(const std::vector<StabilityLimit>& borders) {
 std::string headline(const std::vector<StabilityLimit>& borders) {
   const auto [lowest, highest] = std::minmax_element(borders.begin(), borders.end(),
                                                      [](const auto& a, const auto& b) { return ratio(a) < ratio(b); });
-  return fmt::format("Instability sets in at {:.2f}–{:.2f} times the predicted step", ratio(*lowest), ratio(*highest));
+  return fmt::format("Instability sets in at {:.2f} to {:.2f} times the predicted step", ratio(*lowest),
+                     ratio(*highest));
 }
 
 StudySection section(const StabilityStudy& study, StabilityAxis axis, const char* title, const char* cloth) {

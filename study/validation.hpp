@@ -128,7 +128,8 @@ struct ValidationOptions {
 struct ValidationStudy {
   std::vector<ValidationCase> cases;
   std::vector<ValidationRun> runs;  ///< runs in the order of the plan
-  std::string command;              ///< command to reproduce it
+  std::string command;              ///< options that decide its results: a study continues only one with the same
+  std::string typed_command = {};   ///< command line as typed; empty: `command`
   std::vector<std::pair<std::string, std::string>> provenance;
   double seconds = 0;
   Shard shard = {};  ///< the shard of its runs

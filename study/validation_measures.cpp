@@ -424,6 +424,9 @@ class ValidationReader {
       heading.fail(heading.line(), "expected the runs of a study of validation");
     }
     heading("command", study_.command);
+    std::optional<std::string> typed;
+    heading("typed_command", typed);
+    study_.typed_command = typed.value_or("");
     heading("seconds", study_.seconds);
     std::optional<std::string> shard;
     heading("shard", shard);
@@ -472,6 +475,7 @@ std::string validation_runs(const ValidationStudy& study) {
   f.begin({{}, "study", {}, {}, {}});
   f("format", validation_format);
   f("command", study.command);
+  if (!study.typed_command.empty()) f("typed_command", study.typed_command);
   f("seconds", study.seconds);
   if (!study.shard.whole()) f("shard", study.shard.text());
   std::vector<std::string> names, values, cases;
@@ -516,6 +520,7 @@ MergedValidation merge_validation(const std::vector<std::filesystem::path>& file
   std::ranges::stable_sort(merged.study.runs, {}, &ValidationRun::place);
   for (ValidationRun& run : merged.study.runs) run.place.reset();
   merged.study.shard = {};
+  merged.study.typed_command.clear();  // each shard has its own
   for (std::size_t k = 1; k <= count; ++k) {
     if (!found.contains(k)) merged.missing.push_back({k, count});
   }
@@ -528,6 +533,7 @@ void read_validation_runs(const std::filesystem::path& file, ValidationStudy& st
     throw UsageError(fmt::format("{} is of another command: {}", shown(file), begun.command));
   }
   study.seconds += begun.seconds;
+  if (!begun.typed_command.empty()) study.typed_command = begun.typed_command;
   for (const ValidationRun& run : begun.runs) {
     const auto same = std::ranges::find_if(study.runs, [&](const ValidationRun& planned) {
       return key_of(planned) == key_of(run) && planned.what.overrides == run.what.overrides;

@@ -212,6 +212,7 @@ NamedChart cost_chart(const ValidationStudy& study, const ValidationCase& of) {
 StudySection section_of(const ValidationStudy& study, const ValidationCase& of) {
   StudySection section;
   section.title = of.title;
+  section.group = verdict_of(study, of, scene_factor).met ? "met" : "not met";
   section.text = {of.question, fmt::format("Known from: {} {}", of.theory, of.source),
                   fmt::format("Mesh: {}", of.mesh)};
   for (const ValidationRun& run : study.runs) {
@@ -222,7 +223,8 @@ StudySection section_of(const ValidationStudy& study, const ValidationCase& of) 
     section.text.push_back(fmt::format("{}: {}", curve.title, curve.how));
     section.charts.push_back(master_curve(study, of, curve));
   }
-  section.charts.push_back(cost_chart(study, of));
+  // A single factor's costs are those of the summary.
+  if (NamedChart cost = cost_chart(study, of); cost.chart.series.size() > 1) section.charts.push_back(std::move(cost));
   section.tables.push_back(answers_table(study, of));
   ResultTable factors = factors_table(study, of);
   if (!factors.rows.empty() || !factors.notes.empty()) section.tables.push_back(std::move(factors));
@@ -284,6 +286,7 @@ StudyFinding finding_of(const ValidationStudy& study, const ValidationCase& of) 
   finding.tone = scene.met ? html::Tone::good : html::Tone::bad;
   finding.verdict = scene.met ? "met" : "not met";
   finding.claim = of.title + ".";
+  finding.of = of.title;
   finding.figures =
       fmt::format("{} of {} answers are within their tolerance; the worst, {} {}, is at {} of what is allowed; {} s.",
                   scene.answers - scene.missed, scene.answers, scene.worst_problem, scene.worst_answer,
@@ -327,7 +330,7 @@ StudyReport validation_report(const ValidationStudy& study) {
   StudyReport report;
   report.kind = "drape study validation";
   report.title = "Problems whose answers are known";
-  report.command = study.command;
+  report.command = study.typed_command.empty() ? study.command : study.typed_command;
   report.provenance = study.provenance;
   report.seconds = study.seconds;
   report.introduction =
@@ -347,7 +350,8 @@ StudyReport validation_report(const ValidationStudy& study) {
   report.headline = met < measured  ? fmt::format("{} of {} cases with known answers are met", met, measured)
                     : measured == 1 ? "The case with known answers is met"
                                     : fmt::format("All {} cases with known answers are met", measured);
-  report.answer = StudySection{"Summary", {}, {summary_table(study)}, {summary_chart(study)}, {}};
+  report.answer = StudySection{"Summary", {}, {}, {summary_chart(study)}, {}};
+  report.list = StudyList{"cases", summary_table(study)};
   for (const ValidationCase& one : study.cases) {
     if (verdict_of(study, one, scene_factor).answers > 0) report.sections.push_back(section_of(study, one));
   }

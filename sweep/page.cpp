@@ -19,6 +19,7 @@
 #include "output/codecs/codecs.hpp"
 #include "output/codecs/png.hpp"
 #include "reports/chart.hpp"
+#include "reports/listing.hpp"
 #include "reports/page.hpp"
 #include "reports/players.hpp"
 #include "run/frame_source.hpp"
@@ -260,8 +261,19 @@ constexpr std::size_t most_film_bytes = 48'000'000;  // total on a page
 constexpr int widest = 240;                          // width of a film's picture on the page [pixels]
 constexpr int gap = 6;                               // gap between the pictures of a contact sheet [pixels]
 
+/// A run's film for the page.
+struct RunFilm {
+  html::Strip strip;
+  std::string poster;  ///< picture of the strip's poster: bytes of a PNG file
+};
+
+std::string png_bytes(const cv::Mat& picture) {
+  const std::vector<std::uint8_t> png = png_from_bgr(picture);
+  return {png.begin(), png.end()};
+}
+
 /// Returns a run's contact sheet for the page, scaled down and without gaps; nothing if it has none.
-std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow& row,
+std::optional<RunFilm> film_on_page(const SweepResults& results, const SweepRow& row,
                                     const std::filesystem::path& folder) {
   const std::vector<std::string>& files = row.record.files;
   const auto file = std::ranges::find_if(files, [](const std::string& name) { return name.starts_with("sheet."); });
@@ -277,7 +289,7 @@ std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow&
   if (width < 1 || height < 1) return std::nullopt;
   const double factor = std::min(1.0, static_cast<double>(widest) / width);
   const cv::Size small(std::max(1, static_cast<int>(width * factor)), std::max(1, static_cast<int>(height * factor)));
-  cv::Mat strip(rows * small.height, columns * small.width, CV_8UC3, cv::Scalar::all(255)), first;
+  cv::Mat strip(rows * small.height, columns * small.width, CV_8UC3, cv::Scalar::all(255)), first, telling;
   int poster = 0;
   double most = 0;
   for (int i = 0; i < count; ++i) {
@@ -285,20 +297,21 @@ std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow&
     const cv::Mat from = sheet(cv::Rect(column * (width + gap), line * (height + gap), width, height));
     cv::Mat to = strip(cv::Rect(column * small.width, line * small.height, small.width, small.height));
     cv::resize(from, to, small, 0, 0, cv::INTER_AREA);
-    if (first.empty()) first = to.clone();
+    if (first.empty()) first = telling = to.clone();
     // Use the picture that differs most from the first as the poster, since most films begin with a flat cloth.
     const double differs = cv::norm(to, first, cv::NORM_L1);
     if (differs <= most) continue;
     most = differs;
     poster = i;
+    telling = to.clone();
   }
-  const std::vector<std::uint8_t> png = png_from_bgr(strip);
-  return html::Strip{.bytes = {png.begin(), png.end()},
-                     .columns = columns,
-                     .count = count,
-                     .size = {small.width, small.height},
-                     .poster = poster,
-                     .alt = "Film of " + label_of(results.plan, results.planned(row))};
+  return RunFilm{.strip = {.bytes = png_bytes(strip),
+                           .columns = columns,
+                           .count = count,
+                           .size = {small.width, small.height},
+                           .poster = poster,
+                           .alt = "Film of " + label_of(results.plan, results.planned(row))},
+                 .poster = png_bytes(telling)};
 }
 
 html::Markup outcome_badge(RunOutcome outcome) {
@@ -333,6 +346,13 @@ class Films {
     return html::section(2, "films", "The films in step", content);
   }
 
+  /// Returns the picture of a run that stands for its film; empty if section() shows no film of it.
+  [[nodiscard]] Markup poster(const SweepRow& row) const {
+    const auto found = posters_.find(row.run);
+    if (found == posters_.end()) return {};
+    return html::picture("image/png", found->second, "Picture of " + label_of(results_.plan, results_.planned(row)));
+  }
+
  private:
   Markup of(const SweepGrid& grid) {
     html::Table table{grid.title.empty() ? "Films by what varies" : "Films with " + grid.title, {}, {}};
@@ -351,12 +371,13 @@ class Films {
 
   Markup cell(const SweepRow& row) {
     Markup film;
-    std::optional<html::Strip> strip;
-    if (bytes_ < most_film_bytes) strip = strip_of(results_, row, folder_);
-    if (strip) {
-      bytes_ += strip->bytes.size();
+    std::optional<RunFilm> found;
+    if (bytes_ < most_film_bytes) found = film_on_page(results_, row, folder_);
+    if (found) {
+      bytes_ += found->strip.bytes.size();
       note_moments(row.record.moments);
-      film = html::strip(*strip);
+      film = html::strip(found->strip);
+      posters_[row.run] = std::move(found->poster);
     } else if (!row.record.moments.empty()) {
       ++left_out_;
     }
@@ -368,6 +389,7 @@ class Films {
       figures += ", " + iterations + " iterations";
     }
     const std::string file = film_of(results_, row);
+    if (figures == "–" && file.empty()) return film.empty() ? Markup(figures) : film;
     return film + html::note(file.empty() ? Markup(figures) : html::link(file, figures));
   }
 
@@ -380,12 +402,16 @@ class Films {
 
   const SweepResults& results_;
   const std::filesystem::path& folder_;
-  std::vector<double> moments_;  // times of the longest strip [s]
-  bool same_moments_ = true;     // true if all strips share their common moments
+  std::map<std::size_t, std::string> posters_;  // PNG files by run
+  std::vector<double> moments_;                 // times of the longest strip [s]
+  bool same_moments_ = true;                    // true if all strips share their common moments
   std::size_t bytes_ = 0, left_out_ = 0;
 };
 
-Markup figures_table(const SweepResults& results) {
+std::string anchor(const SweepRow& row) { return fmt::format("run-{}", row.run + 1); }
+
+/// Returns a row per run, which begins with a link to the run's section.
+html::Table runs_table(const SweepResults& results) {
   html::Table table{"Every run, with its figures", {{"Run", true}}, {}};
   const bool scenes = results.plan.names.size() > 1;
   if (scenes) table.columns.push_back({"Scene"});
@@ -402,8 +428,7 @@ Markup figures_table(const SweepResults& results) {
   table.columns.push_back({"Timed"});
   for (const SweepRow& row : results.rows) {
     const PlannedRun& planned = results.planned(row);
-    const std::string film = film_of(results, row), number = std::to_string(row.run + 1);
-    std::vector<Markup> cells{film.empty() ? Markup(number) : html::link(film, number)};
+    std::vector<Markup> cells{html::link("#" + anchor(row), std::to_string(row.run + 1))};
     if (scenes) cells.emplace_back(results.plan.names[planned.scene]);
     for (const std::string& value : planned.values) cells.emplace_back(value);
     cells.push_back(outcome_badge(row.record.outcome));
@@ -412,7 +437,37 @@ Markup figures_table(const SweepResults& results) {
     cells.emplace_back(row.record.timed.empty() ? "–" : row.record.timed);
     table.rows.push_back(std::move(cells));
   }
-  return html::sortable_table(table);
+  return table;
+}
+
+/// Returns what is known about a run: how to repeat it, its picture and every figure.
+Markup run_content(const SweepResults& results, const SweepRow& row, const Markup& poster) {
+  const PlannedRun& planned = results.planned(row);
+  Markup content;
+  if (!row.record.reason.empty()) content += html::findings({{html::Tone::bad, row.record.reason}});
+  content += html::command("Make this run alone", run_command(results.plan, planned));
+  const std::string film = film_of(results, row);
+  if (!poster.empty()) content += html::element("div", {{"class", "poster"}}, poster);
+  if (!film.empty()) content += html::paragraph(html::link(film, "Its film"));
+  std::vector<std::pair<std::string, Markup>> facts;
+  for (const auto& [name, value] : row.record.figures) {
+    if (!value.empty()) facts.emplace_back(figure_title(name), short_figure(row, name));
+  }
+  return content + (facts.empty() ? Markup() : html::facts(facts));
+}
+
+/// Returns the list of runs, with a section for each.
+Markup run_list(const SweepResults& results, const Films& films) {
+  html::Listing listing{"runs", runs_table(results), {}, true};
+  for (const SweepRow& row : results.rows) {
+    const Markup heading = Markup(fmt::format("{}: {}", row.run + 1, label_of(results.plan, results.planned(row)))) +
+                           outcome_badge(row.record.outcome);
+    listing.entries.push_back(
+        {anchor(row), name_of(row.record.outcome),
+         html::section(3, anchor(row), heading,
+                       html::details("Command, picture and figures", run_content(results, row, films.poster(row))))});
+  }
+  return html::listing(listing);
 }
 
 Markup findings(const SweepResults& results) {
@@ -433,7 +488,8 @@ std::string sweep_page(const SweepResults& results, const std::filesystem::path&
   page.heading = results.headline();
   if (!results.shard.whole()) page.heading += fmt::format(" (shard {})", results.shard.text());
   page.introduction = findings(results) + html::command("Run this sweep again", results.command());
-  page.content = Films(results, folder).section();
+  Films films(results, folder);
+  page.content = films.section();
   if (const SweepDiagrams diagrams = figure_diagrams(results); !diagrams.charts.empty()) {
     page.content += html::section(2, "diagrams", "Diagrams",
                                   html::choices("figure-diagrams", choices_of(diagrams)) +
@@ -443,7 +499,7 @@ std::string sweep_page(const SweepResults& results, const std::filesystem::path&
   }
   page.content +=
       html::section(2, "figures", "Figures",
-                    figures_table(results) +
+                    run_list(results, films) +
                         html::element("p", {{"class", "note on-screen"}}, "Choose a column's head to sort by it.") +
                         html::note("runs.csv has every figure."));
   page.foot = {{"Made by", results.plan.program}};

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/build_info.hpp"
+#include "core/console.hpp"
 #include "core/files.hpp"
 #include "core/hash.hpp"
 #include "core/installation.hpp"
@@ -135,6 +136,19 @@ std::vector<std::string> overrides_of(const SweepPlan& plan, const PlannedRun& r
   for (std::string& override : overrides_of(plan.request.varied, run.values)) overrides.push_back(std::move(override));
   overrides.insert(overrides.end(), run.shared.begin(), run.shared.end());
   return overrides;
+}
+
+std::string run_command(const SweepPlan& plan, const PlannedRun& run) {
+  const SweepRequest& request = plan.request;
+  std::string text = request.films.empty() ? "drape simulate " : "drape render ";
+  text += shell_file(request.scenes[run.scene]);
+  for (const std::string& value : overrides_of(plan, run)) text += " --set " + shell_word(value);
+  if (request.steps) text += fmt::format(" --steps {}", *request.steps);
+  for (const std::string& film : request.films) text += " -o " + shell_word("film." + film);
+  if (request.motion) text += " -o motion.drape";
+  if (!request.films.empty() && request.backend != GlBackend::automatic)
+    text += fmt::format(" --backend {}", backend_name(request.backend));
+  return text;
 }
 
 std::string label_of(const SweepPlan& plan, const PlannedRun& run) {

@@ -40,6 +40,9 @@ std::vector<std::string> overrides_of(const SweepPlan& plan, const PlannedRun& r
 /// Returns "integrator.tolerance = 0.01, integrator.method = liu13", with the scene's name if there are several.
 std::string label_of(const SweepPlan& plan, const PlannedRun& run);
 
+/// Returns the shell command that makes this run alone, with its films or its motion.
+std::string run_command(const SweepPlan& plan, const PlannedRun& run);
+
 /// Returns the version, revision and compiler of this program for plans. A build of a modified source tree also
 /// includes the hash of the program file.
 std::string program_text();

@@ -116,7 +116,7 @@ std::string short_figure(const SweepRow& row, const std::string& name) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || error != std::errc() || end != text.data() + text.size()) return nothing;
   if (text.find_first_of(".e") == std::string::npos) return text;
-  return value != 0 && (value < 0.01 || value >= 1e7) ? fmt::format("{:.2e}", value) : three_digits(value);
+  return value != 0 && (value < 0.1 || value >= 1e7) ? fmt::format("{:.2e}", value) : three_digits(value);
 }
 
 std::string film_of(const SweepResults& results, const SweepRow& row) {

@@ -23,7 +23,7 @@ TEST(ReportPage, NamesTheCommandAsItWasTyped) {
   const SceneFolder folder;
   folder.write("a b.toml", scene);
   drape(folder, "bless 'a b.toml'");
-  const std::string check = "check 'a b.toml' --flip-limit 0.5 --threads 2 --report out/it --quiet";
+  const std::string check = "check 'a b.toml' --flip-limit 0.5 --threads 2 --report out/it --style paper --quiet";
   EXPECT_EQ(drape(folder, check).code, 0);
   const std::string report = content(folder.path("out/it/report.html"));
   const auto escaped = [](std::string text) {
@@ -31,12 +31,43 @@ TEST(ReportPage, NamesTheCommandAsItWasTyped) {
     return text;
   };
   EXPECT_TRUE(has_command(report, escaped("drape " + check))) << report.substr(report.find("<h1"), 1000);
-  EXPECT_TRUE(has_command(report, escaped("drape check 'a b.toml' --flip-limit 0.5 --report out/it --threads 2")));
+  EXPECT_TRUE(has_command(
+      report, escaped("drape check 'a b.toml' --flip-limit 0.5 --report out/it --style paper --threads 2")));
   EXPECT_EQ(report.find("Accept the change"), std::string::npos) << "nothing changed";
 
   const std::string compare = "compare 'a b.toml' --vary integrator.method=liu13,implicit --quality draft -o ab.html";
   EXPECT_EQ(drape(folder, compare).code, 0);
   EXPECT_TRUE(has_command(content(folder.path("ab.html")), escaped("drape " + compare)));
+}
+
+TEST(ReportPage, NamesTheCommandOfAStudyAsItWasTyped) {
+  const SceneFolder folder;
+  folder.write("a.toml", scene);
+  const auto page = [&](const char* place) { return content(folder.path(place)); };
+  const std::string accuracy =
+      "study accuracy a.toml --parts asked --times 0.1 --steps 0.02 --accuracies 1e-3 --methods liu13 --runs 1 "
+      "--animate none -o acc --style paper --quiet";
+  ASSERT_EQ(drape(folder, accuracy).code, 0);
+  EXPECT_TRUE(has_command(page("acc/report.html"), "drape " + accuracy));
+  const std::string validation = "study validation rolled-sheet --quick --jobs 1 --patience 60 -o val --quiet";
+  ASSERT_EQ(drape(folder, validation).code, 0);
+  EXPECT_TRUE(has_command(page("val/report.html"), "drape " + validation));
+  // A report that is recreated, or resumed, is still of the command that measured.
+  for (const std::string& again : {"study accuracy --report-only -o acc", "study validation --report-only -o val"}) {
+    ASSERT_EQ(drape(folder, again).code, 0);
+  }
+  ASSERT_EQ(drape(folder, "study validation rolled-sheet --quick --resume -o val").code, 0);
+  EXPECT_TRUE(has_command(page("acc/report.html"), "drape " + accuracy));
+  EXPECT_TRUE(has_command(page("val/report.html"), "drape " + validation));
+}
+
+TEST(ReportPage, HasARunsOwnCommandThatMakesIt) {
+  const SceneFolder folder;
+  folder.write("a.toml", scene);
+  ASSERT_EQ(drape(folder, "sweep a.toml --vary cloth.mass=1,2 --set time.duration=0.1 --steps 3").code, 0);
+  const std::string command = "simulate a.toml --set time.duration=0.1 --set cloth.mass=2 --steps 3";
+  EXPECT_TRUE(has_command(content(folder.path("out/sweep/report.html")), "drape " + command));
+  EXPECT_EQ(drape(folder, command).code, 0);
 }
 
 TEST(ReportPage, SaysAfterSetThatTheSceneHasToBeEdited) {

@@ -42,6 +42,8 @@ class ComparePage : public test::InBrowser {
 TEST_F(ComparePage, ShowsOneMomentOfAllMotions) {
   open(page());
   expect_sound();
+  EXPECT_EQ(browser_->run("return document.querySelector('h1').textContent"),
+            "implicit <exact> is up to 60 mm from liu13, tolerance = 0.001");
   EXPECT_EQ(shown(), (nlohmann::json{"0", "0"}));
   browser_->run("document.querySelector('.film input').focus()");
   browser_->press(test::Browser::arrow_right);

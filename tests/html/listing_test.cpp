@@ -11,8 +11,8 @@ namespace {
 
 class ListingOfEntries : public test::InBrowser {
  protected:
-  void open_entries(std::size_t count) {
-    Listing listing{"scenes", {"Checked scenes", {{"Scene"}, {"Verdict"}}, {}}, {}};
+  void open_entries(std::size_t count, bool sortable = false) {
+    Listing listing{"scenes", {"Checked scenes", {{"Scene"}, {"Verdict"}}, {}}, {}, sortable};
     for (std::size_t i = 0; i < count; ++i) {
       const std::string id = fmt::format("scene-{}", i), name = fmt::format("name{}", i);
       const std::string group = i < 2 ? "changed" : "passed";
@@ -64,6 +64,29 @@ TEST_F(ListingOfEntries, HasFiltersByGroupAndName) {
   browser_->click(".filters input");
   browser_->press("E5");
   EXPECT_EQ(seen("tbody tr td:first-child"), "name5");
+}
+
+TEST_F(ListingOfEntries, LeavesTheRowsWithAllOfTheWords) {
+  open_entries(many_entries + 1);
+  browser_->click(".filters input");
+  browser_->press("PASS 3");
+  EXPECT_EQ(seen("tbody tr td:first-child"), "name3");
+  browser_->press("x");
+  EXPECT_EQ(seen("tbody tr td:first-child"), "");
+}
+
+TEST_F(ListingOfEntries, OpensTheEntryOfASortedRow) {
+  open_entries(many_entries + 1, true);
+  expect_sound();
+  browser_->set_width(1200);
+  browser_->click("th button");
+  browser_->click("th button");
+  EXPECT_EQ(seen("tbody tr td:first-child"), "name6,name5,name4,name3,name2,name1,name0");
+  EXPECT_EQ(browser_->run("return document.querySelectorAll('.filters input').length"), 1) << "one field, not two";
+  browser_->click(".filters button:nth-child(2)");
+  EXPECT_EQ(seen("tbody tr td:first-child"), "name1,name0");
+  browser_->click("tbody tr:not([hidden]) a");
+  EXPECT_EQ(seen("main h2"), "name1");
 }
 
 TEST_F(ListingOfEntries, PrintsAllOfThem) {

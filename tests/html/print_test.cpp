@@ -76,6 +76,70 @@ TEST_F(Paper, HoldsWholeTablesOnWhite) {
   }
 }
 
+/// Counts the elements of a selector with more than one line.
+int in_lines(test::Browser& browser, const std::string& selector) {
+  return browser.run("return [...document.querySelectorAll('" + selector +
+                     "')].filter((e) => { const r = document.createRange(); r.selectNodeContents(e); return new "
+                     "Set([...r.getClientRects()].map((b) => Math.round(b.top))).size > 1 }).length");
+}
+
+TEST_F(Paper, BreaksNoNumberOfATableThatFits) {
+  Table wide{"Many columns", {{"method"}}, {{"quasi-newton with sdirk2 and a long name"}}};
+  for (int i = 0; i < 12; ++i) {
+    wide.columns.push_back({"a quantity of the motion", true});
+    wide.rows.front().push_back(i % 2 == 0 ? "8.33e-05" : "31.5");
+  }
+  open_page(table(wide));
+  print();
+  EXPECT_EQ(in_lines(*browser_, "td.number"), 0);
+  EXPECT_LE(browser_->run("return document.documentElement.scrollWidth").get<int>(), paper_width);
+}
+
+TEST_F(Paper, BreaksNoLineWithinAnOptionOrANumber) {
+  std::string words, line("drape");
+  for (int i = 0; i < 40; ++i) {
+    words += "at ε = 1e-05 m ";
+    line += " --report out";
+  }
+  open_page(table({"A table", {{"what"}, {"found"}}, {{"a", words}, {"b", "few"}}}) + command("Again", line) +
+            findings({{Tone::good, words}}));
+  for (const int width : {360, 390, 500, 1200}) {
+    browser_->set_width(width);
+    EXPECT_EQ(in_lines(*browser_, ".whole"), 0) << width;
+    EXPECT_LE(browser_->run("return document.documentElement.scrollWidth").get<int>(), width);
+  }
+  EXPECT_EQ(browser_->run("return document.querySelectorAll('.whole').length"), 3 * 40);
+  EXPECT_EQ(browser_->run("return document.querySelector('.command code').textContent"), line);
+  print();
+  EXPECT_EQ(in_lines(*browser_, ".whole"), 0);
+}
+
+TEST_F(Paper, KeepsACardsCellTogether) {
+  const std::string words = "quasi-newton at ε = 1e-05 m, in 27 steps of 1e-03 s";
+  open_page(table({"A table", {{"what"}, {"found in all of it"}}, {{"a", words}}}));
+  browser_->set_width(390);
+  EXPECT_EQ(browser_->run("return getComputedStyle(document.querySelector('td')).display"), "block");
+  EXPECT_EQ(
+      browser_->run("const r = document.createRange(), td = document.querySelector('td + td');"
+                    "r.selectNodeContents(td); const left = Math.min(...[...r.getClientRects()].map((b) => b.left));"
+                    "return left > td.getBoundingClientRect().left + 100"),
+      true)
+      << "all of it is beside its label";
+}
+
+TEST_F(Paper, LeavesDashesOutOfCards) {
+  open_page(table({"A table of runs",
+                   {{"run"}, {"what was found in it"}, {"time of it", true}},
+                   {{"first one", "–", "0"}, {"second one", "some words of it", "–"}}}));
+  const char* shown =
+      "return [...document.querySelectorAll('td')].filter((e) => e.getClientRects().length).map((e) => "
+      "e.textContent).join()";
+  browser_->set_width(390);
+  EXPECT_EQ(browser_->run(shown), "first one,0,second one,some words of it");
+  browser_->set_width(1200);
+  EXPECT_EQ(browser_->run(shown), "first one,–,0,second one,some words of it,–");
+}
+
 TEST_F(Paper, ShowsSomeMomentsOfAFilm) {
   std::vector<FilmMoment> moments;
   const std::string pixel = encode_png(Image(1, 1));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <thread>
 
+#include "reports/listing.hpp"
 #include "study/homework_report.hpp"
 #include "tests/html/html_page.hpp"
 
@@ -59,8 +60,35 @@ StudyReport report_with_motion() {
   return homework_report(study);
 }
 
+/// Makes a report of cases, the first of which is not met.
+StudyReport report_of_cases(std::size_t count) {
+  StudyReport report;
+  report.kind = "drape study cases";
+  report.headline = "Cases";
+  report.command = "drape study cases";
+  report.answer = StudySection{"Summary", {"All of them."}, {}, {}, {}};
+  report.list = StudyList{"cases", {"cases", "Cases", {"case", "answers"}, {}, {"A note."}}};
+  report.findings.push_back({html::Tone::neutral, "", "Of the whole study.", ""});
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string title = "Case " + std::to_string(i);
+    report.list->table.rows.push_back({title, std::to_string(i)});
+    report.findings.push_back({i == 0 ? html::Tone::bad : html::Tone::good, "", title + " is found.", "", title});
+    StudySection section{title, {"About " + title + "."}, {}, {}, {}};
+    section.group = i == 0 ? "not met" : "met";
+    report.sections.push_back(std::move(section));
+  }
+  report.sections.push_back({"How it was measured", {"By a clock."}, {}, {}, {}});
+  return report;
+}
+
 class StudyPage : public test::InBrowser {
  protected:
+  /// Returns the visible texts of a selector.
+  std::string seen(const std::string& selector) {
+    return browser_->run("return [...document.querySelectorAll('" + selector +
+                         "')].filter((e) => e.getClientRects().length).map((e) => e.textContent).join()");
+  }
+
   std::string tip() {
     return browser_->run("const t = document.getElementById('tip'); return t.hidden ? '' : t.textContent");
   }
@@ -73,6 +101,32 @@ TEST_F(StudyPage, IsSoundAndSaysWhatIsNotConfirmed) {
             "1 of the report's 2 conclusions are confirmed");
   EXPECT_EQ(browser_->run("return document.querySelectorAll('.findings .bad').length"), 1);
   keep_screenshots("study");
+}
+
+TEST_F(StudyPage, OpensOneOfManyCases) {
+  open(to_page(report_of_cases(html::many_entries)));
+  expect_sound();
+  browser_->set_width(1200);
+  EXPECT_EQ(seen(".filters button"), "all 6,not met 1,met 5");
+  EXPECT_EQ(seen("main h2"), "Summary,How it was measured");
+  EXPECT_EQ(seen("main table caption"), "Cases") << "the list is the only table";
+  EXPECT_EQ(seen(".findings strong"), "Of the whole study.,Case 0 is found.") << "a good finding is in its section";
+  browser_->click("tbody tr:nth-child(3) a");
+  EXPECT_EQ(seen("main h2"), "Case 2,Summary,How it was measured");
+  EXPECT_EQ(seen(".entry .findings strong"), "Case 2 is found.");
+  browser_->set_print(false);
+  EXPECT_EQ(seen(".entry h2"), "Case 0,Case 1,Case 2,Case 3,Case 4,Case 5");
+  browser_->set_theme(false);
+  keep_screenshots("study-list");
+}
+
+TEST_F(StudyPage, ShowsFewCasesBelowEachOther) {
+  open(to_page(report_of_cases(html::many_entries - 1)));
+  expect_sound();
+  EXPECT_EQ(seen(".filters button"), "");
+  EXPECT_EQ(seen("main h2"), "Summary,Findings,Case 0,Case 1,Case 2,Case 3,Case 4,How it was measured");
+  EXPECT_EQ(seen("main table caption"), "Cases");
+  EXPECT_EQ(browser_->run("return document.querySelectorAll('.findings li').length"), html::many_entries);
 }
 
 TEST_F(StudyPage, HasMotionsToTurnThatAreOpenedOneAtATime) {

@@ -70,6 +70,34 @@ TEST_F(SweepPage, SortsItsFigures) {
   EXPECT_EQ(column(1), before);
 }
 
+TEST_F(SweepPage, OpensOneOfManyRuns) {
+  open(page());
+  const auto seen = [&](const std::string& selector) -> std::string {
+    return browser_->run("return [...document.querySelectorAll('" + selector +
+                         "')].filter((e) => e.checkVisibility()).map((e) => e.textContent).join()");
+  };
+  EXPECT_EQ(seen(".filters button"), "all 8,completed 6,refused 2");
+  EXPECT_EQ(browser_->run("return document.querySelectorAll('.filters input').length"), 1);
+  browser_->click(".filters button:nth-child(3)");
+  EXPECT_EQ(browser_->run("return [...document.querySelectorAll('.list tbody tr')].filter((r) => !r.hidden).length"),
+            2);
+  browser_->click(".filters button:nth-child(2)");
+  browser_->click(".list tbody tr:not([hidden]) a");
+  EXPECT_EQ(seen(".list table"), "");
+  EXPECT_EQ(seen(".entry h3").substr(0, 24), "1: cloth.stiffness = 10,") << seen(".entry h3");
+  const std::string command = seen(".entry .command code");
+  EXPECT_TRUE(command.starts_with("drape render ")) << command;
+  EXPECT_TRUE(
+      command.ends_with(" --set video.fps=50 --set video.speed=0.5 --set cloth.stiffness=10 --set cloth.mass=1 "
+                        "--set integrator.method=implicit -o film.gif"))
+      << command;
+  EXPECT_EQ(browser_->run("return [...document.querySelectorAll('.entry .poster img')].filter((e) => "
+                          "e.checkVisibility() && e.naturalWidth > 1).length"),
+            1);
+  EXPECT_NE(seen(".entry .facts").find("iterations per step"), std::string::npos);
+  keep_screenshots("sweep-run");
+}
+
 TEST_F(SweepPage, DrawsAnyFigureOverAnyKey) {
   open(page());
   const char* seen =
