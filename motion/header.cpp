@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t most_steps = 1'000'000'000'000;
-constexpr std::size_t own_columns = 9, columns_of_collider = 4;
+constexpr std::size_t own_columns = 9, columns_of_collider = 4, columns_of_cloth = 3;
 
 double bounded(const Json& json, const char* key) {
   const double value = json.at(key).get<double>();
@@ -77,6 +77,7 @@ std::string pack_header(const MotionHeader& header) {
             {"texture_coordinates", header.textured},
             {"colliders", header.colliders},
             {"group", states_in_group}};
+  if (!header.cloths.empty()) json["cloths"] = header.cloths;
   if (header.imported) json["imported"] = true;
   return pack(json.dump(1, ' ', false, Json::error_handler_t::replace));
 }
@@ -100,6 +101,7 @@ MotionHeader unpack_header(std::string_view payload) {
     header.textured = json.at("texture_coordinates").get<bool>();
     header.colliders = json.at("colliders").get<std::vector<std::string>>();
     count(json, "group", states_in_group, states_in_group);
+    if (json.contains("cloths")) header.cloths = json.at("cloths").get<std::vector<std::string>>();
     header.imported = json.value("imported", false);
   } catch (const Json::exception&) {
     throw std::invalid_argument("has a head that is not what it should be");
@@ -112,7 +114,8 @@ MotionHeader unpack_header(std::string_view payload) {
 }
 
 std::string pack_rows(const std::vector<StepRow>& rows) {
-  std::vector<std::vector<double>> columns(own_columns + columns_of_collider * rows.front().colliders.size());
+  const std::size_t before_cloths = own_columns + columns_of_collider * rows.front().colliders.size();
+  std::vector<std::vector<double>> columns(before_cloths + columns_of_cloth * rows.front().cloths.size());
   for (const StepRow& row : rows) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const std::array<double, own_columns> own{row.energies.kinetic,          row.energies.gravity,
@@ -126,6 +129,11 @@ std::string pack_rows(const std::vector<StepRow>& rows) {
       for (std::size_t k = 0; k < numbers.size(); ++k) {
         columns[own_columns + columns_of_collider * c + k].push_back(numbers[k]);
       }
+    }
+    for (std::size_t c = 0; c < row.cloths.size(); ++c) {
+      const Energies& one = row.cloths[c];
+      std::size_t column = before_cloths + columns_of_cloth * c;
+      for (const double number : {one.kinetic, one.gravity, one.elastic}) columns[column++].push_back(number);
     }
   }
   std::vector<std::uint64_t> words;
@@ -158,7 +166,8 @@ std::vector<StepRow> unpack_rows(std::string_view payload, const MotionHeader& h
   if (size > rows_in_block || first > static_cast<std::uint64_t>(most_steps)) {
     throw std::invalid_argument("has rows that cannot be");
   }
-  const std::size_t columns = own_columns + columns_of_collider * header.colliders.size();
+  const std::size_t before_cloths = own_columns + columns_of_collider * header.colliders.size();
+  const std::size_t columns = before_cloths + columns_of_cloth * header.cloths.size();
   const std::vector<std::uint64_t> words = unpack_planes(reader.rest(), columns * size);
   std::vector<StepRow> rows(size);
   for (std::size_t i = 0; i < size; ++i) {
@@ -178,6 +187,9 @@ std::vector<StepRow> unpack_rows(std::string_view payload, const MotionHeader& h
       const std::size_t at = own_columns + columns_of_collider * c;
       row.colliders.push_back(
           collider_of(header.colliders[c], {number(at), number(at + 1), number(at + 2), number(at + 3)}));
+    }
+    for (std::size_t at = before_cloths; at < columns; at += columns_of_cloth) {
+      row.cloths.push_back({.kinetic = number(at), .gravity = number(at + 1), .elastic = number(at + 2)});
     }
   }
   return rows;

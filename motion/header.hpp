@@ -22,6 +22,7 @@ struct StepRow {
   double residual = 0;              ///< ‖∇g‖ at its end [N]
   std::optional<double> error;      ///< estimated error of its solve, if available [m]
   std::vector<Collider> colliders;  ///< at its end, in the scene's order
+  std::vector<Energies> cloths;     ///< energies of each of several cloths at its end; empty: unknown [J]
 };
 
 /// Selection of the steps whose states are stored. The first and the last one are always stored.
@@ -42,6 +43,7 @@ struct MotionHeader {
   int vertices = 0, triangles = 0;
   bool textured = false;                    ///< true if the cloth has texture coordinates
   std::vector<std::string> colliders = {};  ///< kinds of the colliders: "sphere", "ground", "body"
+  std::vector<std::string> cloths = {};     ///< names of several cloths, whose energies the rows have
   bool imported = false;                    ///< made by another program: the scene has only its look, no physics
 };
 

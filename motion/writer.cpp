@@ -28,6 +28,9 @@ MotionHeader complete(MotionHeader header, const Scene& scene) {
   header.vertices = cloth.vertex_count();
   header.triangles = static_cast<int>(cloth.triangles.size());
   header.textured = !scene.uvs.empty();
+  if (cloth.pieces.size() > 1 && !header.imported) {
+    for (const ClothPiece& piece : cloth.pieces) header.cloths.push_back(piece.name);
+  }
   return header;
 }
 
@@ -80,6 +83,7 @@ MotionFileWriter::MotionFileWriter(fs::path file, const ResumePoint& from)
 
 void MotionFileWriter::add(const StepRow& row) {
   rows_.push_back(row);
+  if (header_.cloths.empty()) rows_.back().cloths.clear();  // a growing file of an older version has no such columns
   if (rows_.size() == rows_in_block) write_rows();
 }
 

@@ -69,16 +69,18 @@ void MotionRecorder::after_step(const Simulation& simulation, const StepReport& 
 
 void MotionRecorder::add(const Simulation& simulation, const StepReport& report) {
   const std::int64_t step = simulation.state().step;
-  tasks_.push(
-      [row = StepRow{.step = step,
-                     .energies = simulation.energies(),
-                     .iterations = report.iterations,
-                     .converged = report.converged,
-                     .substeps = report.substeps,
-                     .estimate = report.estimate,
-                     .residual = step == 0 ? 0 : simulation.residual(),
-                     .error = step == 0 ? std::nullopt : statistics_.exactness().error_of(step),
-                     .colliders = simulation.colliders(simulation.time())}](MotionFileWriter& to) { to.add(row); });
+  tasks_.push([row = StepRow{.step = step,
+                             .energies = simulation.energies(),
+                             .iterations = report.iterations,
+                             .converged = report.converged,
+                             .substeps = report.substeps,
+                             .estimate = report.estimate,
+                             .residual = step == 0 ? 0 : simulation.residual(),
+                             .error = step == 0 ? std::nullopt : statistics_.exactness().error_of(step),
+                             .colliders = simulation.colliders(simulation.time()),
+                             .cloths = simulation.cloth().pieces.size() > 1
+                                           ? simulation.piece_energies()
+                                           : std::vector<Energies>()}](MotionFileWriter& to) { to.add(row); });
   if (is_recorded(step)) tasks_.push([state = simulation.state()](MotionFileWriter& to) { to.add(state); });
 }
 

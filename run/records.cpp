@@ -55,7 +55,9 @@ class Records::EnergyLog final : public StepObserver {
     file.write(header + "\n");
     if (simulation.state().step == 0) add(simulation);
   }
-  void replay(const StepRow& row, double time, double /*seconds*/) override { add(row.step, time, row.energies, {}); }
+  void replay(const StepRow& row, double time, double /*seconds*/) override {
+    add(row.step, time, row.energies, row.cloths);
+  }
   void after_step(const Simulation& simulation, const StepReport&, double) override { add(simulation); }
 
   Record file;

@@ -163,26 +163,25 @@ Energies Simulation::Motion::energies() {
 
 std::vector<Energies> Simulation::Motion::piece_energies() {
   const Cloth& cloth = settings.cloth;
-  std::vector<Energies> all;
-  for (const ClothPiece& piece : cloth.pieces) {
-    Energies& one = all.emplace_back();
-    for (int i = piece.first_vertex; i < piece.first_vertex + piece.vertex_count; ++i) {
-      one.kinetic += cloth.masses[i] / 2 * state.v.row(i).squaredNorm();
-      one.gravity -= cloth.masses[i] * state.x.row(i).dot(system->gravity);
-    }
-    for (const Spring& s : system->springs) {
-      if (!piece.has(s.i)) continue;
-      const double longer = (state.x.row(s.i) - state.x.row(s.j)).norm() - s.rest_length;
-      one.elastic += s.stiffness / 2 * longer * longer;
-    }
+  std::vector<Energies> all(cloth.pieces.size());
+  if (all.empty()) return all;
+  const std::vector<int> numbers = pieces_of_vertices(cloth);
+  const auto piece_of = [&](int vertex) -> Energies& {
+    return numbers.empty() ? all.front() : all[static_cast<std::size_t>(numbers[static_cast<std::size_t>(vertex)])];
+  };
+  for (int i = 0; i < cloth.vertex_count(); ++i) {
+    piece_of(i).kinetic += cloth.masses[i] / 2 * state.v.row(i).squaredNorm();
+    piece_of(i).gravity -= cloth.masses[i] * state.x.row(i).dot(system->gravity);
+  }
+  for (const Spring& s : system->springs) {
+    const double longer = (state.x.row(s.i) - state.x.row(s.j)).norm() - s.rest_length;
+    piece_of(s.i).elastic += s.stiffness / 2 * longer * longer;
   }
   ignored.setZero(state.x.rows(), 3);
   for (const auto& energy : system->energies) {
     const bool whole = energy->piece < 0;
-    if (whole && all.size() != 1) continue;
-    if (!all.empty())
-      all[static_cast<std::size_t>(std::max(0, energy->piece))].elastic +=
-          energy->add_gradient(state.x, time(), ignored);
+    if (!energy->stored() || (whole && all.size() != 1)) continue;
+    all[static_cast<std::size_t>(std::max(0, energy->piece))].elastic += energy->add_gradient(state.x, time(), ignored);
   }
   return all;
 }

@@ -51,7 +51,7 @@ class Motion:
                 np.frombuffer(data[end:], "<f4").reshape(-1, 3, 2))
 
     def rows(self):
-        """Steps x columns: kinetic, gravity, elastic, iterations, converged, residual, error, substeps, estimate, colliders…"""
+        """Steps x columns: kinetic, gravity, elastic, iterations, converged, residual, error, substeps, estimate, colliders…, cloths…"""
         parts = []
         for _, offset in self.row_blocks:
             payload, _ = self.block(offset, b"ROWS")

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "run/run_scene.hpp"
@@ -55,6 +56,105 @@ TEST(MotionFile, HoldsEveryStepToTheBit) {
     const Eigen::Vector3d center = std::get<SphereShape>(row.colliders[0]).center;
     EXPECT_EQ(center, (Eigen::Vector3d(0.1, 0.2, 0) * (static_cast<double>(i) * 0.02) + Eigen::Vector3d(0, 0, -0.5)));
   }
+}
+
+/// Two cloths above each other; bending acts on one of them.
+const std::string two_cloths = R"(
+[[cloth]]
+name = "sheet"
+mesh = { grid = [4, 3] }
+stiffness = 50
+pins = ["corner:x-y-", "corner:x+y-"]
+[[cloth]]
+name = "napkin"
+mesh = { grid = [2, 2], size = [0.4, 0.4] }
+transform = { translate = [0, 0, 1] }
+stiffness = 20
+[time]
+step = 0.02
+duration = 0.6
+[effects.gravity]
+[[effects.bending]]
+cloth = "sheet"
+rigidity = 1e-3
+)";
+
+/// Records the energies of each cloth in a simulation.
+struct PieceEnergies final : StepObserver {
+  std::vector<std::vector<Energies>> rows;
+  void begin(const Simulation& simulation) override { rows.push_back(simulation.piece_energies()); }
+  void after_step(const Simulation& simulation, const StepReport&, double) override {
+    rows.push_back(simulation.piece_energies());
+  }
+};
+
+TEST(MotionFile, HoldsTheEnergiesOfEachCloth) {
+  const SceneFolder folder;
+  const Scene scene = folder.load(two_cloths);
+  record(scene, folder.path("m.drape"));
+  PieceEnergies expected;
+  Simulation simulation(scene.simulation);
+  run_steps(simulation, scene.step_count(), std::array<StepObserver*, 1>{&expected}, {});
+  MotionReader motion(folder.path("m.drape"));
+  EXPECT_EQ(motion.header().cloths, (std::vector<std::string>{"sheet", "napkin"}));
+  ASSERT_EQ(motion.rows(), static_cast<std::int64_t>(expected.rows.size()));
+  for (std::size_t i = 0; i < expected.rows.size(); ++i) {
+    const StepRow& row = motion.row(static_cast<std::int64_t>(i));
+    ASSERT_EQ(row.cloths.size(), 2U);
+    double kinetic = 0, elastic = 0;
+    const double rounding = 1e-12 * std::abs(row.energies.total());
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(row.cloths[k].kinetic, expected.rows[i][k].kinetic) << i;
+      EXPECT_EQ(row.cloths[k].gravity, expected.rows[i][k].gravity) << i;
+      EXPECT_EQ(row.cloths[k].elastic, expected.rows[i][k].elastic) << i;
+      kinetic += row.cloths[k].kinetic;
+      elastic += row.cloths[k].elastic;
+    }
+    EXPECT_NEAR(kinetic, row.energies.kinetic, rounding);
+    EXPECT_NEAR(elastic, row.energies.elastic, rounding);
+  }
+}
+
+/// The records of a complete or resumed motion are those of the run, with the columns of every cloth.
+TEST(MotionFile, GivesTheRecordsOfEachCloth) {
+  const SceneFolder folder;
+  const Scene scene = folder.load(two_cloths);
+  RunOptions options;
+  options.records.energies = folder.path("run.csv");
+  options.motion.emplace();
+  options.motion->recorded.every = 7;  // most steps have a row only
+  record(scene, folder.path("m.drape"), options);
+  const std::string expected = content(folder.path("run.csv"));
+  EXPECT_NE(expected.find(",sheet.elastic,napkin.kinetic,"), std::string::npos) << expected.substr(0, 200);
+  EXPECT_EQ(expected.find(",,"), std::string::npos);
+
+  MotionReader motion(folder.path("m.drape"));
+  RecordPaths paths;
+  paths.energies = folder.path("read.csv");
+  write_records(motion, MotionScene(motion).scene(), paths);
+  EXPECT_EQ(content(folder.path("read.csv")), expected);
+
+  record(scene, folder.path("parts.drape"), {}, 11);
+  RunOptions rest;
+  rest.records.energies = folder.path("parts.csv");
+  resume(folder.path("parts.drape"), rest);
+  EXPECT_EQ(content(folder.path("parts.csv")), expected);
+}
+
+/// A file of a version before several cloths had rows of their own has neither names nor columns.
+TEST(MotionFile, IsReadWithoutTheEnergiesOfEachCloth) {
+  StepRow row;
+  row.energies = {.kinetic = 1, .gravity = 2, .elastic = 3};
+  MotionHeader header;
+  const std::string old = pack_rows({row});
+  EXPECT_TRUE(unpack_rows(old, header).front().cloths.empty());
+  row.cloths = {{.kinetic = 4, .gravity = 5, .elastic = 6}, {.kinetic = 7, .gravity = 8, .elastic = 9}};
+  header.cloths = {"a", "b"};
+  const StepRow back = unpack_rows(pack_rows({row}), header).front();
+  ASSERT_EQ(back.cloths.size(), 2U);
+  EXPECT_EQ(back.cloths[0].gravity, 5);
+  EXPECT_EQ(back.cloths[1].elastic, 9);
+  EXPECT_THROW(unpack_rows(old, header), std::invalid_argument);
 }
 
 TEST(MotionFile, CanBeReadInAnyOrder) {
