@@ -24,9 +24,8 @@ struct MethodChoice {
 
 /// Chooses between quasi-Newton and velocity Verlet with the fewest stable substeps. With these, Verlet's error is far
 /// below a hundredth of the cloth's size (docs/notes/accuracy.md). Backward Euler needs half the usual step to reach a
-/// hundredth, so Verlet's step competes with two steps of quasi-Newton and the cheaper is taken. In contact, impulses
-/// of an implicit step stretch stiff springs and short steps avoid this; then Verlet may cost ten times as much. The
-/// choice depends only on counted work and is the same on every machine.
+/// hundredth, so Verlet's step competes with two steps of quasi-Newton and the cheaper is taken. The choice depends
+/// only on counted work and is the same on every machine.
 /// @param settings valid except for their method
 MethodChoice choose_method(const SimulationSettings& settings);
 
