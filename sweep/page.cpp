@@ -451,7 +451,7 @@ Markup run_content(const SweepResults& results, const SweepRow& row, const Marku
   if (!film.empty()) content += html::paragraph(html::link(film, "Its film"));
   std::vector<std::pair<std::string, Markup>> facts;
   for (const auto& [name, value] : row.record.figures) {
-    if (!value.empty()) facts.emplace_back(figure_title(name), short_figure(row, name));
+    if (!value.empty()) facts.emplace_back(figure_title(name), number(value) ? short_figure(row, name) : value);
   }
   return content + (facts.empty() ? Markup() : html::facts(facts));
 }

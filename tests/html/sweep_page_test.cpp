@@ -94,7 +94,8 @@ TEST_F(SweepPage, OpensOneOfManyRuns) {
   EXPECT_EQ(browser_->run("return [...document.querySelectorAll('.entry .poster img')].filter((e) => "
                           "e.checkVisibility() && e.naturalWidth > 1).length"),
             1);
-  EXPECT_NE(seen(".entry .facts").find("iterations per step"), std::string::npos);
+  EXPECT_NE(seen(".entry .facts").find("methodimplicit"), std::string::npos) << seen(".entry .facts");
+  EXPECT_EQ(seen("#figures ~ .note"), "") << "notes about the table";
   keep_screenshots("sweep-run");
 }
 
