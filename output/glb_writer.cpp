@@ -169,9 +169,9 @@ std::string material(const std::string& name, const Rgb& color, const std::strin
 }
 
 /// Returns the bytes of a texture that glTF supports, PNG or JPEG; empty: none.
-std::string texture_bytes(const Look& look, std::string& type) {
-  if (look.texture.empty()) return {};
-  std::string bytes = read_file(look.texture, most_texture_bytes);
+std::string texture_bytes(const std::filesystem::path& texture, std::string& type) {
+  if (texture.empty()) return {};
+  std::string bytes = read_file(texture, most_texture_bytes);
   type = bytes.starts_with("\x89PNG") ? "image/png" : bytes.starts_with("\xFF\xD8") ? "image/jpeg" : "";
   if (type.empty()) bytes.clear();
   return bytes;
@@ -189,9 +189,37 @@ GlbWriter::GlbWriter(const std::filesystem::path& file, const FilmInfo& film) : 
   if (film.cloth != nullptr) patch_ = ground_patch(film.cloth->positions);
 }
 
+void GlbWriter::add_sheets(const Frame& frame) {
+  const std::vector<Triangle>& triangles = film_.triangles();
+  const std::vector<std::array<float, 2>>& uvs = film_.texture_coordinates();
+  std::vector<ClothPiece> pieces;
+  if (film_.cloth != nullptr && film_.cloth->pieces.size() > 1) pieces = film_.cloth->pieces;
+  if (pieces.empty()) {
+    pieces.push_back({.name = "Cloth",
+                      .vertex_count = static_cast<int>(frame.positions.rows()),
+                      .triangle_count = static_cast<int>(triangles.size())});
+  }
+  for (const ClothPiece& piece : pieces) {
+    Sheet& sheet = sheets_.emplace_back();
+    sheet.name = piece.name;
+    sheet.first_vertex = piece.first_vertex;
+    sheet.vertex_count = piece.vertex_count;
+    const auto begin = triangles.begin() + piece.first_triangle;
+    sheet.triangles.assign(begin, begin + piece.triangle_count);
+    for (Triangle& triangle : sheet.triangles) {
+      for (int& vertex : triangle) vertex -= piece.first_vertex;
+    }
+    std::vector<std::array<float, 2>> own_uvs;
+    if (!uvs.empty()) {
+      const auto first = uvs.begin() + 3 * static_cast<std::ptrdiff_t>(piece.first_triangle);
+      own_uvs.assign(first, first + 3 * static_cast<std::ptrdiff_t>(piece.triangle_count));
+    }
+    sheet.mesh = std::make_unique<GltfMorphedMesh>(file_, sheet.triangles, own_uvs, piece.vertex_count, true);
+  }
+}
+
 void GlbWriter::add_first(const Frame& frame) {
-  cloth_ = std::make_unique<GltfMorphedMesh>(file_, film_.triangles(), film_.texture_coordinates(),
-                                             frame.positions.rows(), true);
+  add_sheets(frame);
   static const std::vector<std::array<float, 2>> no_uvs;
   for (const Collider& collider : frame.colliders) {
     if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
@@ -232,7 +260,9 @@ void GlbWriter::add(const Frame& frame) {
                     file_.file().string(), most_frames));
   }
   times_.push_back(static_cast<float>(static_cast<double>(times_.size()) / film_.fps));
-  cloth_->add(frame.positions);
+  for (const Sheet& sheet : sheets_) {
+    sheet.mesh->add(frame.positions.middleRows(sheet.first_vertex, sheet.vertex_count));
+  }
   std::size_t ball = 0, solid = 0;
   for (const Collider& collider : frame.colliders) {
     if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
@@ -248,10 +278,41 @@ void GlbWriter::add(const Frame& frame) {
   }
 }
 
+std::vector<std::string> GlbWriter::sheet_materials(GltfParts& parts, std::vector<std::string>& tail,
+                                                    std::string& images) const {
+  const Look look = film_.look != nullptr ? *film_.look : Look{};
+  std::vector<std::string> materials, sources, textures;
+  std::vector<std::filesystem::path> known;
+  for (std::size_t k = 0; k < sheets_.size(); ++k) {
+    const bool of_its_own = look.cloths.size() == sheets_.size();
+    const Rgb color = of_its_own ? look.cloths[k].color : look.color;
+    const std::filesystem::path& file = of_its_own ? look.cloths[k].texture : look.texture;
+    const std::string name = sheets_.size() == 1 ? "cloth" : sheets_[k].name;
+    std::size_t number = static_cast<std::size_t>(std::ranges::find(known, file) - known.begin());
+    if (number == known.size()) {
+      std::string type;
+      std::string bytes = film_.texture_coordinates().empty() ? "" : texture_bytes(file, type);
+      if (bytes.empty()) {
+        materials.push_back(material(name, color));
+        continue;
+      }
+      known.push_back(file);
+      sources.push_back(
+          fmt::format("{{\"bufferView\": {}, \"mimeType\": \"{}\"}}", parts.add_view(bytes.size()), type));
+      textures.push_back(fmt::format("{{\"sampler\": 0, \"source\": {}}}", number));
+      tail.push_back(std::move(bytes));
+    }
+    materials.push_back(material(name, {1, 1, 1}, fmt::format(", \"baseColorTexture\": {{\"index\": {}}}", number)));
+  }
+  if (!known.empty()) {
+    images = fmt::format(", \"images\": [{}], \"samplers\": [{{}}], \"textures\": [{}]", fmt::join(sources, ", "),
+                         fmt::join(textures, ", "));
+  }
+  return materials;
+}
+
 std::string GlbWriter::json(GltfParts& parts, std::vector<std::string>& tail) {
   const Look look = film_.look != nullptr ? *film_.look : Look{};
-  std::string image_type, images;
-  std::string texture = film_.texture_coordinates().empty() ? "" : texture_bytes(look, image_type);
   std::vector<std::string> meshes, nodes, channels, samplers;
   const auto add_channel = [&](std::size_t node, const char* path, int input, int output) {
     channels.push_back(fmt::format("{{\"sampler\": {}, \"target\": {{\"node\": {}, \"path\": \"{}\"}}}}",
@@ -269,13 +330,17 @@ std::string GlbWriter::json(GltfParts& parts, std::vector<std::string>& tail) {
     nodes.push_back(fmt::format("{{\"name\": \"{}\", \"mesh\": {}{}}}", name, meshes.size(), more));
     meshes.push_back(fmt::format("{{\"name\": \"{}\", \"primitives\": [{}]{}}}", name, primitive, weights));
   };
-  add_mesh("Cloth", *cloth_, 0, "");
+  const int sheets = static_cast<int>(sheets_.size());  // each with a material of its own, before those of obstacles
+  for (int k = 0; k < sheets; ++k) {
+    const Sheet& sheet = sheets_[static_cast<std::size_t>(k)];
+    add_mesh(sheet.name, *sheet.mesh, k, "");
+  }
   for (Ball& ball : balls_) {
-    add_mesh(fmt::format("Sphere{}", 1 + (&ball - balls_.data())), *ball.mesh, 1,
+    add_mesh(fmt::format("Sphere{}", 1 + (&ball - balls_.data())), *ball.mesh, sheets,
              fmt::format(", \"translation\": [{:.9g}, {:.9g}, {:.9g}]", ball.first.center.x(), ball.first.center.y(),
                          ball.first.center.z()));
   }
-  for (Solid& solid : solids_) add_mesh(solid.name, *solid.mesh, solid.is_ground ? 3 : 2, "");
+  for (Solid& solid : solids_) add_mesh(solid.name, *solid.mesh, sheets + (solid.is_ground ? 2 : 1), "");
 
   const std::size_t frames = times_.size();
   const bool animated = std::ranges::any_of(morphed, [](const auto& of) { return of.second; }) ||
@@ -303,21 +368,11 @@ std::string GlbWriter::json(GltfParts& parts, std::vector<std::string>& tail) {
       tail.emplace_back(bytes_of(ball.places));
       const int output = parts.add_accessor(parts.add_view(4 * ball.places.size()), 0, frames,
                                             "\"componentType\": 5126, \"type\": \"VEC3\"");
-      add_channel(2 + static_cast<std::size_t>(&ball - balls_.data()), "translation", input, output);
+      add_channel(1 + sheets_.size() + static_cast<std::size_t>(&ball - balls_.data()), "translation", input, output);
     }
   }
-  if (!texture.empty()) {
-    const int view = parts.add_view(texture.size());
-    images = fmt::format(
-        ", \"images\": [{{\"bufferView\": {}, \"mimeType\": \"{}\"}}], \"samplers\": [{{}}], \"textures\": "
-        "[{{\"sampler\": 0, "
-        "\"source\": 0}}]",
-        view, image_type);
-  }
-  const std::string cloth_material = texture.empty()
-                                         ? material("cloth", look.color)
-                                         : material("cloth", {1, 1, 1}, ", \"baseColorTexture\": {\"index\": 0}");
-  tail.push_back(std::move(texture));
+  std::string images;
+  const std::vector<std::string> materials = sheet_materials(parts, tail, images);
   std::vector<int> children;
   for (std::size_t i = 1; i <= nodes.size(); ++i) children.push_back(static_cast<int>(i));
   // A rotation by −90° about x turns z up into y up.
@@ -327,7 +382,7 @@ std::string GlbWriter::json(GltfParts& parts, std::vector<std::string>& tail) {
       "\"nodes\": [{{\"name\": \"Scene\", \"rotation\": [-0.7071067811865476, 0, 0, 0.7071067811865476], \"children\": "
       "[{}]}}, {}], \"meshes\": [{}], \"materials\": [{}, {}, {}, {}], \"bufferViews\": [{}], \"accessors\": [{}], "
       "\"buffers\": [{{\"byteLength\": {}}}]{}{}}}",
-      fmt::join(children, ", "), fmt::join(nodes, ", "), fmt::join(meshes, ", "), cloth_material,
+      fmt::join(children, ", "), fmt::join(nodes, ", "), fmt::join(meshes, ", "), fmt::join(materials, ", "),
       material("sphere", look.sphere_color), material("body", look.body_color), material("ground", look.ground_color),
       fmt::join(parts.views(), ", "), fmt::join(parts.accessors(), ", "), parts.size(),
       animated ? fmt::format(", \"animations\": [{{\"name\": \"motion\", \"channels\": [{}], \"samplers\": [{}]}}]",
@@ -354,7 +409,7 @@ std::vector<OutputFile> GlbWriter::finish(Ending ending) {
   append_number<std::uint32_t>(head, static_cast<std::uint32_t>(bytes));
   head += std::string("BIN\0", 4);
   file_.write(head);
-  cloth_->write(file_);
+  for (const Sheet& sheet : sheets_) sheet.mesh->write(file_);
   for (Ball& ball : balls_) ball.mesh->write(file_);
   for (Solid& solid : solids_) solid.mesh->write(file_);
   for (const std::string& part : tail) file_.write(part);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,7 +70,7 @@ class GltfMorphedMesh {
   Spool positions_, normals_;
 };
 
-/// Writes the motion as binary glTF 2.0: the cloth with one morph target per frame and an animation of their weights,
+/// Writes the motion as binary glTF 2.0: each cloth with one morph target per frame and an animation of their weights,
 /// and the colliders. In metres, rotated to glTF's y up, in single precision.
 class GlbWriter final : public MotionWriter {
  public:
@@ -95,13 +96,26 @@ class GlbWriter final : public MotionWriter {
     bool is_ground = false;
   };
 
+  /// A cloth: all vertices and triangles, or those of one of several cloths with a name.
+  struct Sheet {
+    std::string name;
+    int first_vertex = 0, vertex_count = 0;
+    std::vector<Triangle> triangles;  // their vertices count from the cloth's first
+    std::unique_ptr<GltfMorphedMesh> mesh;
+  };
+
+  void add_sheets(const Frame& frame);
   void add_first(const Frame& frame);
+  /// Returns the materials of the sheets, and adds the bytes of their textures to the tail.
+  /// @param images fields of the textures, if any
+  [[nodiscard]] std::vector<std::string> sheet_materials(GltfParts& parts, std::vector<std::string>& tail,
+                                                         std::string& images) const;
   [[nodiscard]] std::string json(GltfParts& parts, std::vector<std::string>& tail);
 
   FilmInfo film_;
   PartialFile file_;
   GroundPatch patch_;
-  std::unique_ptr<GltfMorphedMesh> cloth_;
+  std::deque<Sheet> sheets_;  // keeps the places of triangles, to which meshes refer
   std::vector<Ball> balls_;
   std::vector<Solid> solids_;
   std::vector<float> times_;

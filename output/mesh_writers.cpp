@@ -179,19 +179,43 @@ OutputFormat obj_format() {
           .make = FrameMaker<Frame>(obj_writer)};
 }
 
+namespace {
+
+/// Returns the bytes of the vertices, each with the number of its cloth if there are several.
+std::string ply_vertices(const Vertices& positions, const std::vector<int>& cloth_of) {
+  if (cloth_of.empty()) return vertex_bytes<double>(positions);
+  std::string bytes;
+  for (Eigen::Index i = 0; i < positions.rows(); ++i) {
+    for (const double x : positions.row(i)) append_number<double>(bytes, x);
+    append_number<std::int32_t>(bytes, cloth_of[static_cast<std::size_t>(i)]);
+  }
+  return bytes;
+}
+
+}  // namespace
+
 std::function<std::string(const Frame&)> ply_writer(const FilmInfo& film) {
   std::string faces;
   for (const Triangle& triangle : film.triangles()) {
     append_number<std::uint8_t>(faces, 3);
     for (const int vertex : triangle) append_number<std::int32_t>(faces, vertex);
   }
-  return [faces, count = film.triangles().size()](const Frame& frame) {
+  std::vector<int> cloth_of;  // number of each vertex's cloth, of several
+  std::string names, property;
+  if (film.cloth != nullptr && film.cloth->pieces.size() > 1) {
+    cloth_of = pieces_of_vertices(*film.cloth);
+    property = "property int cloth\n";
+    for (std::size_t k = 0; k < film.cloth->pieces.size(); ++k) {
+      names += fmt::format("comment cloth {} is {}\n", k, film.cloth->pieces[k].name);
+    }
+  }
+  return [=, count = film.triangles().size()](const Frame& frame) {
     return fmt::format(
-               "ply\nformat binary_little_endian 1.0\ncomment drape: frame {} at {:.9g} s, in metres, z up\n"
-               "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+               "ply\nformat binary_little_endian 1.0\ncomment drape: frame {} at {:.9g} s, in metres, z up\n{}"
+               "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
                "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-               frame.index, frame.time, frame.positions.rows(), count) +
-           vertex_bytes<double>(frame.positions) + faces;
+               frame.index, frame.time, names, frame.positions.rows(), property, count) +
+           ply_vertices(frame.positions, cloth_of) + faces;
   };
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <zlib.h>
+#include <algorithm>
 #include <utility>
 
 #include "output/vtk_writer.hpp"
@@ -165,6 +166,19 @@ void NpzWriter::make_colliders(const Frame& first) {
   }
 }
 
+void NpzWriter::make_cloths(const std::vector<ClothPiece>& pieces) {
+  const auto longer = [](const ClothPiece& a, const ClothPiece& b) { return a.name.size() < b.name.size(); };
+  const std::size_t longest = std::ranges::max_element(pieces, longer)->name.size();
+  std::string names;  // UTF-32; the names are ASCII
+  for (const ClothPiece& piece : pieces) {
+    for (std::size_t i = 0; i < longest; ++i) {
+      append_number<std::uint32_t>(names, i < piece.name.size() ? static_cast<unsigned char>(piece.name[i]) : 0U);
+    }
+  }
+  make("cloth_names", fmt::format("'<U{}'", longest), {}).append_rows(pieces.size(), names);
+  make("cloths", "'<i4'", {}).append_rows(vertices_, bytes_of(pieces_of_vertices(*film_.cloth)));
+}
+
 void NpzWriter::add_bodies(const Frame& frame) {
   std::size_t k = 0;
   for (const Collider& collider : frame.colliders) {
@@ -224,6 +238,7 @@ std::vector<OutputFile> NpzWriter::finish(Ending ending) {
       .append_rows(film_.texture_coordinates().size() / 3, bytes_of(film_.texture_coordinates()));
   if (film_.cloth != nullptr)
     make("rest", "'<f8'", {3}).append_rows(vertices_, vertex_bytes<double>(film_.cloth->rest));
+  if (film_.cloth != nullptr && film_.cloth->pieces.size() > 1) make_cloths(film_.cloth->pieces);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const std::vector<Triangle>& triangles = *bodies_[k].triangles;
     make(fmt::format("body{}_faces", k + 1), "'<i4'", {3}).append_rows(triangles.size(), bytes_of(triangles));

@@ -75,6 +75,8 @@ class NpzWriter final : public MotionWriter {
  private:
   NpyArray& make(std::string name, std::string type, std::vector<std::size_t> row);
   void make_colliders(const Frame& first);
+  /// Makes the names of several cloths, and the number of each vertex's cloth.
+  void make_cloths(const std::vector<ClothPiece>& pieces);
 
   FilmInfo film_;
   PartialFile file_;

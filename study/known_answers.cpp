@@ -117,6 +117,12 @@ double isotropic_modulus(double load) {
   return values.at(static_cast<std::size_t>(std::lround(load) - 1));
 }
 
+/// Returns the radius of a mylar balloon relative to that of its flat discs, 4 √(2π)/Γ(1/4)².
+double balloon_radius() { return 4 * std::sqrt(2 * pi) / std::pow(std::tgamma(0.25), 2); }
+
+/// Returns the height of a mylar balloon relative to its diameter: that is ∫ t²/√(1 − t⁴) dt from 0 to 1.
+double balloon_height() { return pi / 4 * balloon_radius(); }
+
 const std::map<std::string, KnownCurve>& all_known_curves() {
   static const std::map<std::string, KnownCurve> curves{
       {"heavy-cantilever/drop", {[](double gamma) { return heavy_elastica(gamma).drop; }}},
@@ -140,6 +146,8 @@ const std::map<std::string, KnownCurve>& all_known_curves() {
       {"lateral-buckling/buckled", {[](double gamma) { return gamma > 12.85 * std::numbers::sqrt2 ? 1.0 : 0.0; }}},
       {"clamped-plate/frequency", {[](double) { return 35.985; }, false}},
       {"rolled-sheet/energy", {[](double) { return 1.0; }}},
+      {"mylar-balloon/radius", {[](double) { return balloon_radius(); }}},
+      {"mylar-balloon/height", {[](double) { return balloon_height(); }}},
       {"free-flight/ratio", {[](double) { return 1.0; }, false}},
   };
   return curves;

@@ -339,6 +339,27 @@ Quantities measure_drape(const MotionOfCase& m) {
   return {{"coefficient", (shadow_area(m.last(), m.motion.cloth.triangles) - held) / (whole - held)}};
 }
 
+/// Measures two discs that are one at their rims, blown up: the radius of the rim relative to that of the flat discs,
+/// and the distance of their middles relative to the rim's diameter.
+Quantities measure_balloon(const MotionOfCase& m) {
+  const VectorXd along = m.rest().leftCols<2>().rowwise().norm();
+  const double flat = along.maxCoeff();
+  Vector3d middle = Vector3d::Zero();
+  std::vector<Eigen::Index> rim, poles;
+  for (Eigen::Index i = 0; i < along.size(); ++i) {
+    if (along[i] > flat * (1 - 1e-9)) rim.push_back(i);
+    if (along[i] < flat * 1e-9) poles.push_back(i);
+  }
+  if (poles.size() != 2) throw UsageError("expected two discs with a vertex in the middle of each");
+  for (const Eigen::Index i : rim) middle += m.last().row(i).transpose() / static_cast<double>(rim.size());
+  double radius = 0;
+  for (const Eigen::Index i : rim) {
+    radius += (m.last().row(i).transpose() - middle).norm() / static_cast<double>(rim.size());
+  }
+  const double height = (m.last().row(poles[0]) - m.last().row(poles[1])).norm();
+  return {{"radius", radius / flat}, {"height", height / (2 * radius)}};
+}
+
 struct MeasureType {
   std::string name;
   std::function<Quantities(const MotionOfCase&)> measure;
@@ -362,6 +383,7 @@ const std::vector<MeasureType>& all_measures() {
       {"strain-energy", measure_strain_energy},
       {"rolled-sheet", measure_rolled_sheet},
       {"drape", measure_drape},
+      {"balloon", measure_balloon},
   };
   return measures;
 }

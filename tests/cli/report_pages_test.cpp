@@ -53,7 +53,7 @@ TEST(ReportPage, NamesTheCommandOfAStudyAsItWasTyped) {
   ASSERT_EQ(drape(folder, validation).code, 0);
   EXPECT_TRUE(has_command(page("val/report.html"), "drape " + validation));
   // A report that is recreated, or resumed, is still of the command that measured.
-  for (const std::string& again : {"study accuracy --report-only -o acc", "study validation --report-only -o val"}) {
+  for (const char* again : {"study accuracy --report-only -o acc", "study validation --report-only -o val"}) {
     ASSERT_EQ(drape(folder, again).code, 0);
   }
   ASSERT_EQ(drape(folder, "study validation rolled-sheet --quick --resume -o val").code, 0);

@@ -7,11 +7,9 @@
 #include <cmath>
 
 #include "drape/sim/effects/bending.hpp"
-#include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
 #include "tests/cloths/panels.hpp"
-#include "tests/support/audited_run.hpp"
 #include "tests/support/cloths.hpp"
 
 namespace drape::test {
@@ -133,35 +131,6 @@ TEST_P(Touching, APairHasItsOwnFriction) {
   EXPECT_NEAR(slide({ClothFriction{.cloths = {"b", "a"}, .friction = friction}}), speed - friction * g * time,
               0.06 * speed);
   EXPECT_NEAR(slide({ClothFriction{.cloths = {"b", "b"}, .friction = friction}}), speed, 0.01 * speed);
-}
-
-/// Drops layers on the ground and audits the run.
-AuditedRun drop(int layers, const NamedMethod& method, double thickness, int steps, double& height, double& speed) {
-  std::vector<Cloth> sheets;
-  for (int k = 0; k < layers; ++k) {
-    sheets.push_back(panel(4, 4, {0.3, 0.3}, {0.004 * (k % 3), 0.003 * (k % 2), (1.2 + 1.3 * k) * thickness}));
-  }
-  const SimulationSettings settings = exactly(
-      joined(sheets), method, 0.01, {Gravity{}, Ground{.thickness = thickness}, SelfCollision{.thickness = thickness}});
-  Simulation simulation(settings);
-  run(simulation, steps);
-  height = simulation.state().x.col(2).maxCoeff();
-  speed = simulation.state().v.rowwise().norm().mean();
-  return audit_run(settings, steps);
-}
-
-class Layers : public testing::TestWithParam<NamedMethod> {};
-INSTANTIATE_TEST_SUITE_P(SeveralCloths, Layers, testing::Values(sewing_methods[3]), method_name);
-
-TEST_P(Layers, RestOnEachOtherWithoutCrossing) {
-  constexpr int layers = 4;
-  constexpr double thickness = 0.01;
-  double height = 0, speed = 0;
-  const AuditedRun found = drop(layers, GetParam(), thickness, 100, height, speed);
-  EXPECT_EQ(found.with_passages, 0) << (found.first.empty() ? "" : found.first.front());
-  EXPECT_EQ(found.with_crossings, 0);
-  EXPECT_NEAR(height, layers * thickness, 0.3 * thickness);
-  EXPECT_LT(speed, 0.02);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ class Glb : public InScratchFolder {
     film.expected_frames = 3;
     GlbWriter writer(path("x.glb"), film);
     for (int k = 0; k < 3; ++k) {
-      Frame frame{.index = k, .time = 0.04 * k, .positions = grid.positions};
+      Frame frame{.index = k, .time = 0.04 * k, .positions = cloth.positions};
       frame.positions.col(2).array() += rise * k;
       frame.colliders = {SphereShape{.center = {0, 0, 0.5 * rise * k}, .radius = 0.3},
                          GroundShape{.normal = Eigen::Vector3d::UnitZ(), .height = -1}};
@@ -90,6 +90,66 @@ TEST_F(Glb, HasNoAnimationWhereNothingMoves) {
   write(0);
   EXPECT_FALSE(json.contains("animations"));
   EXPECT_FALSE(json["meshes"][0]["primitives"][0].contains("targets"));
+}
+
+TEST_F(Glb, HasAMeshAndAMaterialForEachCloth) {
+  Cloth napkin = cloth;
+  napkin.positions.rowwise() += Eigen::RowVector3d(5, 0, 1);
+  Cloth both;
+  append("table-cloth", cloth, both);
+  append("napkin", napkin, both);
+  cloth = both;
+  uvs.insert(uvs.end(), grid.uvs.begin(), grid.uvs.end());
+  Look look;
+  look.cloths = {{.first_triangle = 0, .color = {1, 0, 0}}, {.first_triangle = 8, .color = {0, 0, 1}}};
+  film.look = &look;
+  write(0.25);
+  ASSERT_EQ(json["meshes"].size(), 4U);  // and the ball and the ground
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::string name = both.pieces[k].name;
+    EXPECT_EQ(json["nodes"][1 + k]["name"], name);
+    EXPECT_EQ(json["nodes"][1 + k]["mesh"], k);
+    EXPECT_EQ(json["meshes"][k]["name"], name);
+    const Json& primitive = json["meshes"][k]["primitives"][0];
+    const auto position = primitive["attributes"]["POSITION"].get<std::size_t>();
+    EXPECT_EQ(json["accessors"][position]["count"], 9);
+    EXPECT_EQ(json["accessors"][primitive["indices"].get<std::size_t>()]["count"], 24);
+    EXPECT_EQ(first_of(primitive["attributes"]["POSITION"]), both.positions.row(9 * k).cast<float>().transpose());
+    EXPECT_EQ(first_of(primitive["targets"][1]["POSITION"]), Eigen::Vector3f(0, 0, 0.5F));
+    const Json& material = json["materials"][primitive["material"].get<std::size_t>()];
+    EXPECT_EQ(material["name"], name);
+    EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorFactor"][2 * k], 1.0);
+    EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorFactor"][2 - 2 * k], 0.0);
+  }
+  EXPECT_EQ(json["materials"].size(), 5U);
+  EXPECT_EQ(json["materials"][json["meshes"][2]["primitives"][0]["material"].get<std::size_t>()]["name"], "sphere");
+  EXPECT_EQ(json["materials"][json["meshes"][3]["primitives"][0]["material"].get<std::size_t>()]["name"], "ground");
+  const Json& channels = json["animations"][0]["channels"];
+  ASSERT_EQ(channels.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(channels[k]["target"]["node"], 1 + k);
+  EXPECT_EQ(channels[2]["target"]["path"], "translation");
+}
+
+TEST_F(Glb, StoresATextureOnceForAllClothsThatHaveIt) {
+  Cloth both;
+  for (const char* name : {"a", "b", "c"}) append(name, cloth, both);
+  cloth = both;
+  for (int k = 0; k < 2; ++k) uvs.insert(uvs.end(), grid.uvs.begin(), grid.uvs.end());
+  const std::filesystem::path plaid = std::filesystem::path(DRAPE_SOURCE_DIR) / "textures/plaid.png";
+  Look look;
+  look.cloths = {{.first_triangle = 0, .color = {1, 0, 0}, .texture = plaid},
+                 {.first_triangle = 8, .color = {0, 1, 0}},
+                 {.first_triangle = 16, .color = {0, 0, 1}, .texture = plaid}};
+  film.look = &look;
+  write(0.25);
+  EXPECT_EQ(json["images"].size(), 1U);
+  EXPECT_EQ(json["textures"].size(), 1U);
+  const Json& image = json["bufferViews"][json["images"][0]["bufferView"].get<std::size_t>()];
+  EXPECT_EQ(binary.substr(image["byteOffset"].get<std::size_t>(), image["byteLength"].get<std::size_t>()),
+            content(plaid));
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(json["materials"][k]["pbrMetallicRoughness"].contains("baseColorTexture"), k != 1) << k;
+  }
 }
 
 TEST_F(Glb, RepeatsAVertexThatHasSeveralTextureCoordinates) {

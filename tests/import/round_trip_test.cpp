@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "motion/import/import_motion.hpp"
 #include "motion/reader.hpp"
 #include "scene/mesh_value.hpp"
 #include "sim/system.hpp"
 #include "tests/import/random_motion.hpp"
+#include "tests/support/files.hpp"
 
 namespace drape::test {
 namespace {
@@ -181,6 +184,44 @@ TEST_F(RoundTrip, OfAnObjWithWhatTheClothMayTouchIsTheClothOfAScene) {
     with_others += motion.frames[1].colliders.empty() ? 0 : 1;
   }
   EXPECT_GT(with_others, 3);
+}
+
+/// Returns the vertices' cloths by name, read from a .ply by its header.
+std::vector<std::string> cloths_of(const std::string& ply, std::size_t vertices) {
+  const std::string before = "property double z\nproperty int cloth\nelement face", end = "end_header\n";
+  EXPECT_NE(ply.find(before), std::string::npos);
+  const std::size_t data = ply.find(end) + end.size(), size = 3 * sizeof(double) + sizeof(std::int32_t);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < vertices; ++i) {
+    std::int32_t number = 0;
+    std::memcpy(&number, ply.data() + data + (i + 1) * size - sizeof number, sizeof number);
+    const std::string comment = "comment cloth " + std::to_string(number) + " is ";
+    const std::size_t name = ply.find(comment) + comment.size();
+    names.push_back(ply.substr(name, ply.find('\n', name) - name));
+  }
+  return names;
+}
+
+TEST_F(RoundTrip, OfAPlyWithSeveralClothsKeepsVerticesAndNames) {
+  RandomMotion motion(11);
+  const Cloth one = motion.cloth;
+  Cloth both;
+  append("shirt", one, both);
+  append("skirt", one, both);
+  motion.cloth = both;
+  motion.uvs.insert(motion.uvs.end(), motion.uvs.begin(), motion.uvs.end());
+  for (Frame& frame : motion.frames) {
+    const Vertices x = frame.positions;
+    frame.positions.resize(2 * x.rows(), 3);
+    frame.positions << x, x.rowwise() + Eigen::RowVector3d(1, 2, 3);
+  }
+  motion.write_frames(path("p/"), ".ply", ply_writer(motion.info()));
+  expect_back(motion, "p/{frame:04}.ply", Precision::exact, false);
+  const std::vector<std::string> names =
+      cloths_of(content(path("p/0001.ply")), static_cast<std::size_t>(both.vertex_count()));
+  for (int i = 0; i < both.vertex_count(); ++i) {
+    EXPECT_EQ(names[static_cast<std::size_t>(i)], i < one.vertex_count() ? "shirt" : "skirt") << i;
+  }
 }
 
 TEST_F(RoundTrip, JoinsSeveralClothsIntoOneMesh) {

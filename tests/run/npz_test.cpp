@@ -119,6 +119,27 @@ TEST_F(Npz, HoldsTheMeshAsItIs) {
   EXPECT_EQ(vertices_at<double>(array("rest").data, 0, 20), scene.simulation.cloth.rest);
 }
 
+TEST_F(Npz, SaysWhichVerticesBelongToWhichCloth) {
+  const std::string rest = "stiffness = 10\nmesh = { grid = ";
+  const Scene scene = folder_.load("[[cloth]]\nname = \"shirt\"\n" + rest + "[2, 1] }\n[[cloth]]\nname = \"cap\"\n" +
+                                   rest + "[1, 1] }\n[time]\nstep = 0.01\nduration = 0.01\n[effects.gravity]\n");
+  test::write_motion(scene, {folder_.path("x.npz")});
+  read("x.npz");
+  const Array names = array("cloth_names"), cloths = array("cloths");
+  EXPECT_EQ(names.type, "'<U5'");
+  EXPECT_EQ(names.shape, "2");
+  std::u32string text;
+  for (std::size_t k = 0; k < 10; ++k) text += static_cast<char32_t>(number_at<std::uint32_t>(names.data, 4 * k));
+  EXPECT_EQ(text, std::u32string(U"shirtcap\0\0", 10));
+  EXPECT_EQ(cloths.type, "'<i4'");
+  EXPECT_EQ(cloths.shape, "10");
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(number_at<std::int32_t>(cloths.data, 4 * i), i < 6 ? 0 : 1) << i;
+
+  test::write_motion(folder_.load(test::moving_scene), {folder_.path("one.npz")});
+  read("one.npz");
+  EXPECT_EQ(entries_.count("cloths.npy"), 0U);
+}
+
 TEST_F(Npz, HasTheFramesThatThereAreWhereTheMotionEndsEarly) {
   Cloth cloth;
   cloth.rest = Vertices::Zero(2, 3);

@@ -83,6 +83,7 @@ AuditedRun audit_run(const SimulationSettings& settings, std::int64_t steps) {
     before = std::move(after);
     energies.push_back(simulation.energies().total());
   }
+  auditor.run.last = simulation.state();
   auditor.run.rise = largest_rise(energies);
   return auditor.run;
 }

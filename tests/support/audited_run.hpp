@@ -6,6 +6,7 @@
 
 #include "audit/motion_audit.hpp"
 #include "drape/sim/settings.hpp"
+#include "drape/sim/state.hpp"
 
 namespace drape::test {
 
@@ -15,6 +16,7 @@ struct AuditedRun {
   int with_passages = 0;   ///< steps with an intersection on the straight paths
   int with_crossings = 0;  ///< steps that end with an edge through a triangle
   double deepest = 0;      ///< greatest depth of a vertex in a closed body, a sphere or a ground after any step [m]
+  State last;              ///< state at the end
   audit::EnergyRise rise;  ///< of the total energy, including all work
   std::vector<std::string> first;  ///< the first findings, at most ten: "step 3: cloth edge 1 2 meets …"
 };

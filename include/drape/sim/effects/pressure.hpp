@@ -17,7 +17,7 @@ enum class Gas {
 /// Gas inside of every closed piece of the cloth, which pushes on its surface from within.
 struct Pressure {
   static constexpr std::string_view name = "pressure";
-  static constexpr EffectCost cost{.evaluated = 30e-9, .solved = 90e-9};
+  static constexpr EffectCost cost{.evaluated = 11e-9, .solved = 0.1e-6};
 
   /// Pressure inside above that outside [Pa], at least 0; of an ideal gas that at the start.
   double pressure = 0;
