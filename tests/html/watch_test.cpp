@@ -79,6 +79,19 @@ TEST_F(WatchPage, ShowsAChangeAMistakeAndItsMend) {
   EXPECT_GT(middle()[1], 2 * middle()[0]) << "it is green";
 }
 
+// Browsers show a broken picture for an image without a file.
+TEST_F(WatchPage, ShowsNoPictureBeforeTheFirstFilm) {
+  put(path("flag.toml"), scene + "colour = \"red\"\n");
+  const Watched watched(path("flag.toml"));
+  browser_->run("location.href = '" + watched.server.address() + "'");
+  wait_for("document.getElementById('errors').textContent.includes('unknown key')");
+  const std::string display = "return getComputedStyle(document.getElementById('film')).display";
+  EXPECT_EQ(browser_->run(display), "none");
+  put(path("flag.toml"), scene + "color = \"red\"\n");
+  wait_for("document.getElementById('film').src.endsWith('?1')");
+  EXPECT_EQ(browser_->run(display), "block");
+}
+
 TEST_F(WatchPage, SeesAMeshThatIsSavedAndStopsWhatIsRunning) {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 0 ";
   put(path("cloth.obj"), triangle + "1\nf 1 2 3\n");
