@@ -1,3 +1,5 @@
+#include "cli/watch/session.hpp"  // before httplib.h: <resolv.h> defines _res, which Eigen has as a name
+
 #include <arpa/inet.h>
 #include <httplib.h>
 #include <sys/socket.h>
@@ -7,7 +9,6 @@
 #include <stop_token>
 #include <thread>
 
-#include "cli/watch/session.hpp"
 #include "tests/html/html_page.hpp"
 
 // A page that shows a scene while it is edited: a colour changes, a mistake is made and corrected.
