@@ -21,7 +21,7 @@ struct FileForm {
 constexpr FileForm paper_form{.margin = 1,
                               .line_height = 13,
                               .label_size = paper_font,
-                              .letter = 0.5,
+                              .letter = 0.58,  // of DejaVu Serif, wider than Times, for which it may stand in
                               .key_scale = 0.75,
                               .key_gap = 4,
                               .entry_gap = 10,

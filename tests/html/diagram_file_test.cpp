@@ -29,7 +29,8 @@ class DiagramFile : public test::InBrowser {
         for (const [other, b] of words.slice(i + 1)) {
           const across = Math.min(box.right, b.right) - Math.max(box.left, b.left);
           const down = Math.min(box.bottom, b.bottom) - Math.max(box.top, b.top);
-          if (across > 0 && down > 2) said.push(`${text} / ${other}: over each other`);  // 2: empty parts of lines
+          // Boxes have the height of a line; above and below digits it is empty for 0.43 of the font size (DejaVu Serif).
+          if (across > 0 && down > 3) said.push(`${text} / ${other}: over each other`);
         }
       });
       return said.join("\n"))");
