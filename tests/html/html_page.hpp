@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "tests/support/browser.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -24,6 +26,23 @@ class InBrowser : public InScratchFolder {
     put(path(name), content);
     browser_->set_width(1200);
     browser_->open(path(name));
+  }
+
+  /// Waits until an expression of the page is true, for at most a minute.
+  void wait_for(const std::string& condition) {
+    for (int i = 0; i < 600; ++i) {
+      if (browser_->run("return Boolean(" + condition + ")").get<bool>()) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    FAIL() << condition << ": " << browser_->run("return document.body.innerText").get<std::string>();
+  }
+
+  /// Follows a link within the page, and waits until the page has heard of it.
+  void follow(const std::string& selector) {
+    browser_->run(
+        "window.followed = false; addEventListener('hashchange', () => window.followed = true, {once: true})");
+    browser_->click(selector);
+    wait_for("window.followed");
   }
 
   /// Checks the requirements of every page: an empty console, no requests, all pictures loaded, every control named, no

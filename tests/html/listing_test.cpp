@@ -44,13 +44,13 @@ TEST_F(ListingOfEntries, OpensOneOfManyAndGoesBack) {
   browser_->set_width(1200);
   EXPECT_EQ(seen("main h2"), "");
   EXPECT_EQ(seen("tbody tr td:first-child"), "name0,name1,name2,name3,name4,name5,name6");
-  browser_->click("tbody tr:nth-child(4) a");
+  follow("tbody tr:nth-child(4) a");
   EXPECT_EQ(seen("main h2"), "name3");
   EXPECT_EQ(seen("tbody"), "");
   EXPECT_EQ(seen("main p"), "About name3") << "the details of an unchanged scene open with it";
-  browser_->click(".entry:not([hidden]) .entry-links a:last-child");
+  follow(".entry:not([hidden]) .entry-links a:last-child");
   EXPECT_EQ(seen("main h2"), "name4");
-  browser_->click(".entry:not([hidden]) .entry-links a");
+  follow(".entry:not([hidden]) .entry-links a");
   EXPECT_EQ(seen("main h2"), "");
   EXPECT_NE(seen("tbody"), "");
 }
@@ -85,7 +85,7 @@ TEST_F(ListingOfEntries, OpensTheEntryOfASortedRow) {
   EXPECT_EQ(browser_->run("return document.querySelectorAll('.filters input').length"), 1) << "one field, not two";
   browser_->click(".filters button:nth-child(2)");
   EXPECT_EQ(seen("tbody tr td:first-child"), "name1,name0");
-  browser_->click("tbody tr:not([hidden]) a");
+  follow("tbody tr:not([hidden]) a");
   EXPECT_EQ(seen("main h2"), "name1");
 }
 

@@ -111,7 +111,7 @@ TEST_F(StudyPage, OpensOneOfManyCases) {
   EXPECT_EQ(seen("main h2"), "Summary,How it was measured");
   EXPECT_EQ(seen("main table caption"), "Cases") << "the list is the only table";
   EXPECT_EQ(seen(".findings strong"), "Of the whole study.,Case 0 is found.") << "a good finding is in its section";
-  browser_->click("tbody tr:nth-child(3) a");
+  follow("tbody tr:nth-child(3) a");
   EXPECT_EQ(seen("main h2"), "Case 2,Summary,How it was measured");
   EXPECT_EQ(seen(".entry .findings strong"), "Case 2 is found.");
   browser_->set_print(false);

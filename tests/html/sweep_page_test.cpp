@@ -82,7 +82,7 @@ TEST_F(SweepPage, OpensOneOfManyRuns) {
   EXPECT_EQ(browser_->run("return [...document.querySelectorAll('.list tbody tr')].filter((r) => !r.hidden).length"),
             2);
   browser_->click(".filters button:nth-child(2)");
-  browser_->click(".list tbody tr:not([hidden]) a");
+  follow(".list tbody tr:not([hidden]) a");
   EXPECT_EQ(seen(".list table"), "");
   EXPECT_EQ(seen(".entry h3").substr(0, 24), "1: cloth.stiffness = 10,") << seen(".entry h3");
   const std::string command = seen(".entry .command code");

@@ -33,15 +33,6 @@ struct Watched {
 
 class WatchPage : public test::InBrowser {
  protected:
-  /// Waits until an expression of the page is true, for at most a minute.
-  void wait_for(const std::string& condition) {
-    for (int i = 0; i < 600; ++i) {
-      if (browser_->run("return Boolean(" + condition + ")").get<bool>()) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-    FAIL() << condition << ": " << browser_->run("return document.body.innerText").get<std::string>();
-  }
-
   /// Returns the colour in the middle of the film's picture: red, green, blue.
   std::vector<int> middle() {
     return browser_->run(
