@@ -46,6 +46,17 @@ const std::vector<EqualError>& equal_errors() {
   return all;
 }
 
+/// A motion of so many steps.
+Subject simulated(SimulationSettings settings, int steps) {
+  const auto simulation = std::make_shared<Simulation>(std::move(settings));
+  return {.restore = [simulation, start = simulation->state()] { simulation->restore(start); },
+          .run =
+              [simulation, steps] {
+                for (int step = 0; step < steps; ++step) simulation->step();
+                return 1;  // motion
+              }};
+}
+
 Subject make_motion(const EqualError& c, const Integration& how) {
   const Mesh mesh = make_grid(20, 20);
   SimulationSettings settings;
@@ -57,13 +68,7 @@ Subject make_motion(const EqualError& c, const Integration& how) {
   settings.integrator.tolerance = how.tolerance;
   settings.effects = {Gravity{}};
   if (c.damping < 1) settings.effects.add(Damping{.factor = c.damping});
-  const auto simulation = std::make_shared<Simulation>(std::move(settings));
-  return {.restore = [simulation, start = simulation->state()] { simulation->restore(start); },
-          .run =
-              [simulation, steps = how.steps] {
-                for (int step = 0; step < steps; ++step) simulation->step();
-                return 1;  // motion
-              }};
+  return simulated(std::move(settings), how.steps);
 }
 
 }  // namespace
@@ -98,13 +103,7 @@ Subject make_by_default(const Peer& peer) {
   settings.cloth = hanging_cloth(peer.cells);
   settings.step = step;
   settings.effects = {Gravity{}};
-  const auto simulation = std::make_shared<Simulation>(std::move(settings));
-  return {.restore = [simulation, start = simulation->state()] { simulation->restore(start); },
-          .run =
-              [simulation] {
-                for (int i = 0; i < std::lround(duration / step); ++i) simulation->step();
-                return 1;  // motion
-              }};
+  return simulated(std::move(settings), static_cast<int>(std::lround(duration / step)));
 }
 
 Subject make_by_xpbd(const Peer& peer) {
