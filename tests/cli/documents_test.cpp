@@ -38,7 +38,9 @@ void write_files(const test::SceneFolder& folder) {
 /// @returns the output of each, with its exit code in the last line
 std::vector<std::vector<std::string>> outputs_of(const test::SceneFolder& folder,
                                                  const std::vector<QuotedCommand>& all) {
-  std::string script = "PATH='" + fs::path(DRAPE_EXECUTABLE).parent_path().string() + "':$PATH\nexec 2>&1\n";
+  // Debian's programs, as on a machine of a reader: others of the same name may stand in front of them.
+  std::string script =
+      "PATH='" + fs::path(DRAPE_EXECUTABLE).parent_path().string() + "':/usr/bin:/bin:$PATH\nexec 2>&1\n";
   for (const QuotedCommand& command : all) script += command.command + "\necho \"@@ $?\"\n";
   folder.write("commands.sh", script);
   std::istringstream text(test::run_shell(folder, "bash commands.sh </dev/null").text);
