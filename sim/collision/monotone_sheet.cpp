@@ -99,23 +99,28 @@ MonotoneSheet::MonotoneSheet(const Cloth& cloth, double distance) {
   if (!points || !is_convex(cloth.triangles, *points)) return;
   least_ = margin * distance / closest_features(cloth, reach * distance);
   if (!(least_ < 1)) return;
+  weights_.resize(points->size(), {0, 0});
   for (const Triangle& t : cloth.triangles) {
     const auto p = [&](std::size_t k) { return (*points)[static_cast<std::size_t>(t[k])]; };
     Matrix2d edges;
     edges << p(1) - p(0), p(2) - p(0);
-    const Matrix2d inverse = edges.inverse();
-    triangles_.push_back({t, {inverse(0, 0), inverse(0, 1), inverse(1, 0), inverse(1, 1)}, edges.determinant() / 2});
+    const Matrix2d inverse = edges.inverse(), share = edges.determinant() / 2 * inverse;
+    triangles_.push_back({t, {inverse(0, 0), inverse(0, 1), inverse(1, 0), inverse(1, 1)}});
+    for (Eigen::Index c = 0; c < 2; ++c) {
+      const auto j = static_cast<std::size_t>(c);
+      weights_[static_cast<std::size_t>(t[0])][j] -= share(0, c) + share(1, c);
+      weights_[static_cast<std::size_t>(t[1])][j] += share(0, c);
+      weights_[static_cast<std::size_t>(t[2])][j] += share(1, c);
+    }
   }
   projected_.resize(points->size());
 }
 
 bool MonotoneSheet::choose_plane(const std::vector<Point>& x) {
   Eigen::Matrix<double, 3, 2> mean = Eigen::Matrix<double, 3, 2>::Zero();
-  for (const FlatTriangle& t : triangles_) {
-    const auto p = [&](std::size_t k) { return x[static_cast<std::size_t>(t.vertices[k])]; };
-    const Point first = t.area * (p(1) - p(0)), second = t.area * (p(2) - p(0));
-    mean.col(0) += t.inverse[0] * first + t.inverse[2] * second;
-    mean.col(1) += t.inverse[1] * first + t.inverse[3] * second;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mean.col(0) += weights_[i][0] * x[i];
+    mean.col(1) += weights_[i][1] * x[i];
   }
   // The rotation of the polar decomposition: with it the mean gradient is symmetric.
   const Eigen::SelfAdjointEigenSolver<Matrix2d> squared(mean.transpose() * mean);
@@ -142,7 +147,28 @@ bool MonotoneSheet::is_monotone(const std::vector<Point>& x) {
 }
 
 void MonotoneSheet::begin(const std::vector<Point>& from) {
-  starts_apart_ = !triangles_.empty() && choose_plane(from) && is_monotone(from);
+  from_ = &from;
+  earlier_plane_ = !apart_at_.empty() && apart_at_ == from;
+  if (earlier_plane_) {
+    starts_apart_ = true;
+  } else {
+    test_start();
+  }
+}
+
+bool MonotoneSheet::stays_apart(const std::vector<Point>& to) {
+  bool apart = starts_apart_ && is_monotone(to);
+  if (!apart && earlier_plane_) {
+    earlier_plane_ = false;
+    test_start();
+    apart = starts_apart_ && is_monotone(to);
+  }
+  if (apart) {
+    apart_at_ = to;
+  } else {
+    apart_at_.clear();
+  }
+  return apart;
 }
 
 std::vector<Patch> make_patches(const std::vector<Triangle>& triangles, int first, int vertex_count) {

@@ -23,29 +23,34 @@ class MonotoneSheet {
   /// @param distance at which features touch [m]
   MonotoneSheet(const Cloth& cloth, double distance);
 
-  /// Begins a step with the vertices at `from`.
+  /// Begins a step with the vertices at `from`, which has to live until the next step begins.
   void begin(const std::vector<Point>& from);
 
   /// Returns true if no two features without a common vertex come within the distance while the vertices move on
   /// straight lines to `to`. Returns false if unknown.
-  [[nodiscard]] bool stays_apart(const std::vector<Point>& to) { return starts_apart_ && is_monotone(to); }
+  [[nodiscard]] bool stays_apart(const std::vector<Point>& to);
 
  private:
   /// A triangle and the inverse of its edges in the flat shape, row by row [1/m].
   struct FlatTriangle {
     Triangle vertices;
     std::array<double, 4> inverse;
-    double area;
   };
 
   /// Finds the projection plane from the mean deformation; returns false if it is degenerate.
   bool choose_plane(const std::vector<Point>& x);
   [[nodiscard]] bool is_monotone(const std::vector<Point>& x);
+  /// Tests the start of the step, in a plane of its own.
+  void test_start() { starts_apart_ = !triangles_.empty() && choose_plane(*from_) && is_monotone(*from_); }
 
-  std::vector<FlatTriangle> triangles_;  // empty if the cloth is not flat and convex
-  double least_ = 0;                     // required eigenvalue
-  bool starts_apart_ = false;            // at the start of the step
-  Point first_, second_;                 // axes of the projection
+  std::vector<FlatTriangle> triangles_;         // empty if the cloth is not flat and convex
+  std::vector<std::array<double, 2>> weights_;  // of the vertices in the integral of the gradient
+  double least_ = 0;                            // required eigenvalue
+  const std::vector<Point>* from_ = nullptr;    // start of the step
+  bool starts_apart_ = false;                   // at the start of the step
+  bool earlier_plane_ = false;                  // the plane is that of an earlier step
+  std::vector<Point> apart_at_;                 // end of the last path known to be apart, in the present plane
+  Point first_, second_;                        // axes of the projection
   std::vector<std::array<double, 2>> projected_;
 };
 

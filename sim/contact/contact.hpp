@@ -102,6 +102,9 @@ class ContactSource {
                     std::vector<ContactConstraint>& contacts) = 0;
 };
 
+/// Positions of consecutive vertices, relative to a surface [m].
+using SurfaceBlock = Eigen::Matrix<double, 16, 3>;
+
 /// A fixed half-space for SurfaceContacts.
 struct PlaneObstacle {
   struct Placed {
@@ -110,6 +113,10 @@ struct PlaneObstacle {
     [[nodiscard]] double gap(const Eigen::Vector3d& place) const { return up.dot(place); }
     [[nodiscard]] double margin() const { return 0; }
     [[nodiscard]] bool crosses(const Eigen::Vector3d&, const Eigen::Vector3d&, double) const { return false; }
+    /// Returns true if all gaps at the end are `near` or more.
+    [[nodiscard]] bool stay_clear(const SurfaceBlock&, const SurfaceBlock& to, double near, double) const {
+      return ((to * up).array() >= near).all();
+    }
     [[nodiscard]] Eigen::Vector3d surface_point(const Eigen::Vector3d&) const { return Eigen::Vector3d::Zero(); }
     [[nodiscard]] Eigen::Vector3d normal_on_way(const Eigen::Vector3d&, const Eigen::Vector3d&, double) const {
       return up;
@@ -136,6 +143,14 @@ struct BallObstacle {
     [[nodiscard]] bool crosses(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double distance) const {
       return nearest_on_way(from, to).norm() < rim * (radius + distance);
     }
+    /// Returns true only if all gaps at the end are `near` or more and no path crosses: a path that ends that far away
+    /// is too short to come nearer than the rim.
+    [[nodiscard]] bool stay_clear(const SurfaceBlock& from, const SurfaceBlock& to, double near,
+                                  double distance) const {
+      const double least = rounding * (radius + near), longest = least - rim * (radius + distance);
+      return longest > 0 && (to.rowwise().squaredNorm().array() >= least * least).all() &&
+             ((to - from).rowwise().squaredNorm().array() <= longest * longest).all();
+    }
     [[nodiscard]] Eigen::Vector3d normal_on_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                                 double distance) const {
       const double reach = radius + distance;
@@ -152,6 +167,7 @@ struct BallObstacle {
 
    private:
     static constexpr double rim = 0.9;  // a path that stays outside this fraction of the reach only crosses the rim
+    static constexpr double rounding = 1 + 1e-9;  // for the roots that the test of a block does without
 
     [[nodiscard]] static Eigen::Vector3d nearest_on_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
       const Eigen::Vector3d way = to - from;

@@ -39,7 +39,7 @@ inline double distance_at_end(double before, double kept, double duration) {
 
 /// Contacts of vertices with a smooth surface that moves as a whole. Surface::at(time) returns a Placed: its `center`
 /// [m] and, for positions relative to it, `gap` [m], `crosses`, `normal_on_way` and `surface_point`. Vertices within
-/// twice the distance plus `margin` [m] count as near.
+/// twice the distance plus `margin` [m] count as near. `stay_clear` leaves out whole blocks of vertices.
 template <class Surface>
 class SurfaceContacts final : public ContactSource {
  public:
@@ -56,17 +56,34 @@ class SurfaceContacts final : public ContactSource {
   void find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
             std::vector<ContactConstraint>& contacts) override {
     auto known = held.begin();
-    for (int i = 0; i < static_cast<int>(target.rows()); ++i) {
-      const Eigen::Vector3d to = target.row(i).transpose() - to_.center;
+    const int count = static_cast<int>(target.rows());
+    for (int i = 0; i < count; ++i) {
       while (known != held.end() && known->key.features[0] < i) ++known;
-      const bool bears = known != held.end() && known->key.features[0] == i;
-      const Eigen::Vector3d from = x_->row(i).transpose() - from_.center;
-      if (!bears && to_.gap(to) >= near_ && !to_.crosses(from, to, terms_.distance)) continue;
-      contacts.push_back(make(i, from, to, source));
+      const bool bears = known != held.end() && known->key.features[0] < i + block_size;
+      if (i % block_size == 0 && i + block_size <= count && !bears && passes_by(target, i)) {
+        i += block_size - 1;
+        continue;
+      }
+      add(i, target, known != held.end() && known->key.features[0] == i, source, contacts);
     }
   }
 
  private:
+  static constexpr int block_size = SurfaceBlock::RowsAtCompileTime;
+
+  /// Returns true if the block of vertices that begins with `first` stays clear of the surface.
+  [[nodiscard]] bool passes_by(const Vertices& target, int first) const {
+    const auto relative = [&](const Vertices& x, const Eigen::Vector3d& center) -> SurfaceBlock {
+      return x.middleRows<block_size>(first).rowwise() - center.transpose();
+    };
+    return to_.stay_clear(relative(*x_, from_.center), relative(target, to_.center), near_, terms_.distance);
+  }
+  void add(int i, const Vertices& target, bool bears, int source, std::vector<ContactConstraint>& contacts) const {
+    const Eigen::Vector3d to = target.row(i).transpose() - to_.center;
+    const Eigen::Vector3d from = x_->row(i).transpose() - from_.center;
+    if (!bears && to_.gap(to) >= near_ && !to_.crosses(from, to, terms_.distance)) return;
+    contacts.push_back(make(i, from, to, source));
+  }
   ContactConstraint make(int i, const Eigen::Vector3d& from, const Eigen::Vector3d& to, int source) const {
     ContactConstraint contact;
     contact.key = {.source = source, .features = {i, -1, -1, -1}};
