@@ -33,10 +33,6 @@ bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, doubl
 
 /// Search for the pairs of features of a cloth that may come near each other while its vertices move on straight lines.
 /// The mean motion of the cloth is subtracted, as it changes no distance.
-///
-/// Uses a neighbour list with a skin (Verlet 1967). A search keeps all pairs whose enlarged boxes overlap; these boxes
-/// cover several further steps at the same velocities, plus a margin. While the boxes of a step stay inside them, only
-/// the list is scanned. This gives the same pairs in the same order as a new search.
 class CollisionCandidates {
  public:
   /// @param threads shared by a search if the cloth is large
@@ -57,15 +53,6 @@ class CollisionCandidates {
   /// Returns the box around the boxes of the vertices.
   [[nodiscard]] Box box(const Edge& edge) const;
   [[nodiscard]] Box box(const Triangle& t) const;
-  [[nodiscard]] bool overlap(const FeaturePair& pair) const;
-  /// Returns true if every vertex box, shifted back, is inside its kept box and rounding errors are below `rounding`.
-  [[nodiscard]] bool kept_cover(const Point& shift, double rounding) const;
-  /// Returns the number of further steps at the same velocities that the kept boxes should cover.
-  [[nodiscard]] double steps_ahead(const std::vector<Point>& from, const std::vector<Point>& to,
-                                   const Point& together) const;
-  /// Replaces `pairs` by all accepted pairs with overlapping boxes, sorted.
-  template <class Accept>
-  void search(Accept&& accept, std::vector<FeaturePair>& pairs);
 
   const Threads& threads_;
   std::vector<Triangle> triangles_;
@@ -76,10 +63,6 @@ class CollisionCandidates {
   SpatialHash triangle_hash_, edge_hash_;
   PartLists<FeaturePair> found_;
   std::vector<FeaturePair> pairs_;
-  double edge_length_ = 0;         // mean, at rest [m]
-  std::vector<FeaturePair> kept_;  // pairs whose kept boxes overlap
-  std::vector<Box> kept_boxes_;    // enlarged boxes of the vertices
-  Point kept_middle_{0, 0, 0};     // mean position of the vertices when these boxes were made
 };
 
 /// Features of a cloth and a body that may meet. The body's feature is a triangle, its corner, or the edge from that

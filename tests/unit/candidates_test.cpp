@@ -1,4 +1,4 @@
-// Data that a search for near features keeps for later searches.
+// Searches with one object, one after the other.
 
 #include "sim/collision/candidates.hpp"
 
