@@ -136,7 +136,8 @@ StepReport Simulation::Motion::step() {
   for (const auto& filter : system->filters) report.converged = report.converged && filter->converged();
   ++state.step;
   // Any non-finite position makes this norm non-finite, and any such velocity its vertex's position.
-  if (!std::isfinite(norm(threads, state.x))) throw diverged_by(std::nullopt);
+  const std::optional<double> size = scheme->size();
+  if (!std::isfinite(size ? *size : norm(threads, state.x))) throw diverged_by(std::nullopt);
   if (const auto growth = guard->look(state, forces.push(), forces.constant(), energy)) throw diverged_by(growth);
   return report;
 }

@@ -204,8 +204,8 @@ void SpringNetwork::keep_surroundings(Part& part, const Vertices& x) const {
   if (part.at_tail.rows() > 0) part.at_tail = x.middleRows(part.tail, part.at_tail.rows());
 }
 
-void SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, double h, Vertices& v,
-                                   Vertices& x) const {
+double SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, const Drift& drift,
+                                     Vertices& v, Vertices& x) const {
   const Vertices* other = &force;
   if (gathered_.size() > 0) {
     set_zero(threads_, other_force_);
@@ -219,18 +219,24 @@ void SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices
   threads_.for_each(parts, [&](int p) {
     Part& part = part_of(p);
     part.nowhere.setZero();
+    part.squares = 0;
     for_stretches(part, [&](const Place& place, const SpringStretch& stretch) {
       const int first = place.first;
       const Vertices& at = place.leads ? part.at_lead : first >= part.tail ? part.at_tail : std::as_const(x);
       const int begin = place.leads ? part.lead : first >= part.tail ? part.tail : 0;
-      kernels().kick_bands(stretch, {.factor = factor.data() + first,
-                                     .force = columns(*other, first),
-                                     .h = h,
-                                     .velocity = place.leads ? columns(part.nowhere) : columns(v, first),
-                                     .from = columns(at, first - begin),
-                                     .position = place.leads ? columns(part.nowhere) : columns(x, first)});
+      const double squares =
+          kernels().kick_bands(stretch, {.factor = factor.data() + first,
+                                         .force = columns(*other, first),
+                                         .drift = drift,
+                                         .velocity = place.leads ? columns(part.nowhere) : columns(v, first),
+                                         .from = columns(at, first - begin),
+                                         .position = place.leads ? columns(part.nowhere) : columns(x, first)});
+      if (!place.leads) part.squares += squares;
     });
   });
+  double squares = 0;
+  for (const Part& part : parts_) squares += part.squares;
+  return squares;
 }
 
 void SpringNetwork::compute_blocks(const Vertices& x, double concavity, Blocks& blocks) const {

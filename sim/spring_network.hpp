@@ -82,10 +82,12 @@ class SpringNetwork {
   /// @param inertia per vertex [N/m]
   double evaluate(const Eigen::VectorXd& inertia, const Vertices& y, const Vertices& x, Vertices& gradient) const;
 
-  /// Applies the springs in an explicit step: v += factor·(∇E(x) − force), then x += h·v.
+  /// Applies the springs in an explicit step: v += factor·(∇E(x) − force), then the drift.
   /// @param factor −h/m of each vertex, 0 on pins [s/kg]
-  /// @param h      0 to change the velocities only [s]
-  void kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, double h, Vertices& v, Vertices& x) const;
+  /// @param drift  with h = 0 to change the velocities only
+  /// @returns Σ‖x‖², in no fixed order; not finite if any position is not [m²]
+  double kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, const Drift& drift, Vertices& v,
+                        Vertices& x) const;
 
   /// Hessian of the springs, one symmetric 3×3 block per spring, with d = xᵢ − xⱼ:
   ///   K = k (1 − s) I + k s x̂x̂ᵀ = across·I + along·alongᵀ,  s = share_across(L/‖d‖, concavity).
@@ -124,6 +126,7 @@ class SpringNetwork {
     int tail = 0;                         // start of the first stretch with springs to the next part
     AlignedVector force = {};             // forces of the springs of each band, while needed in a pass
     Vertices nowhere = {};                // receives results for vertices before the first
+    double squares = 0;                   // Σ‖x‖² of its vertices after a kick [m²]
     Vertices at_lead = {}, at_tail = {};  // copies of positions from these vertices on, before other threads move them
   };
   /// Position of a stretch in a part; `leads` is true if it lies before the part.

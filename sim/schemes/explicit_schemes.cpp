@@ -1,6 +1,7 @@
 #include "sim/schemes/explicit_schemes.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/parallel/vectors.hpp"
 
@@ -24,7 +25,8 @@ const Vertices& with_energies(const System& system, const Vertices& x, double ti
 SemiImplicitEuler::SemiImplicitEuler(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count(), system.threads),
-      pull_(explicit_pull(system)) {
+      pull_(explicit_pull(system)),
+      decay_(system.decay(system.step)) {
   if (!system.dashpots.empty())
     damping_.emplace(system, system.whole_step / static_cast<double>(DampingKick::kicks_in(system.substeps)));
   if (!system.fields.empty()) fields_.emplace(system);
@@ -36,10 +38,11 @@ StepReport SemiImplicitEuler::advance(State& state, StepForces& forces) {
   const Vertices& force = with_energies(system_, state.x, start, forces.all(state, start), force_);
   // Do both updates in one pass if nothing changes the velocity in between.
   const bool damped = damping_ && DampingKick::acts_in(state.step, system_.substeps);
-  const bool at_once =
-      !damped && !fields_ && system_.corrections.empty() && system_.filters.empty() && system_.pin_motions.empty();
+  const bool at_once = !damped && !fields_ && decay_ && system_.filters.empty() && system_.pin_motions.empty();
   if (fields_ || damped) before_ = state.v;
-  springs_.kick_and_drift(pull_, force, at_once ? system_.step : 0, state.v, state.x);
+  const Drift drift = at_once ? Drift{.h = system_.step, .before = *decay_} : Drift{.h = 0};
+  const double squares = springs_.kick_and_drift(pull_, force, drift, state.v, state.x);
+  size_ = at_once ? std::optional(squares) : std::nullopt;
   StepReport report;
   if (at_once) return report;
   if (damped) {
@@ -67,7 +70,8 @@ bool depends_on_velocities(const System& system) {
 Verlet::Verlet(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count(), system.threads),
-      pull_(explicit_pull(system)) {
+      pull_(explicit_pull(system)),
+      half_decay_(system.decay(system.step / 2)) {
   if (!system.dashpots.empty() && depends_on_velocities(system)) {
     half_damping_.emplace(system, system.step / 2);
   } else if (!system.dashpots.empty()) {
@@ -83,33 +87,38 @@ StepReport Verlet::advance(State& state, StepForces& forces) {
   const bool velocity_forces = fields_ || forces.any_of_velocity();
   StepReport report;
   const bool damped = half_damping_ || (damping_ && DampingKick::acts_in(state.step, system_.substeps));
-  const bool at_once = !velocity_forces && !damped && system_.filters.empty() && system_.pin_motions.empty();
+  const bool at_once =
+      !velocity_forces && !damped && half_decay_ && system_.filters.empty() && system_.pin_motions.empty();
+  size_.reset();
+  if (at_once) {
+    drape::drift(system_.threads, {.h = half, .before = *half_decay_}, state.v, state.x);
+    report.converged = kick(state, middle, forces, {.h = half, .after = *half_decay_});
+    return report;
+  }
   system_.begin(state);
   system_.correct_half(state);
   if (!system_.filters.empty()) start_x_ = state.x;
   drift();
   system_.place_pins(middle, state.x);
-  if (damped) report.converged = kick_with_dashpots(state, middle, forces);
-  if (!damped) report.converged = kick(state, middle, forces, at_once ? half : 0);
-  if (!at_once) {
-    drift();
-    system_.place_pins(end, state.x);
-    if (!system_.filters.empty()) {
-      std::swap(state.x, start_x_);
-      system_.move(state, start_x_, way_);
-    }
+  report.converged = damped ? kick_with_dashpots(state, middle, forces) : kick(state, middle, forces, {.h = 0});
+  drift();
+  system_.place_pins(end, state.x);
+  if (!system_.filters.empty()) {
+    std::swap(state.x, start_x_);
+    system_.move(state, start_x_, way_);
   }
   system_.correct_half(state);
   system_.drive_pins(end, state.v);
   return report;
 }
 
-bool Verlet::kick(State& state, double time, StepForces& forces, double drift) {
+bool Verlet::kick(State& state, double time, StepForces& forces, const Drift& drift) {
   const bool velocity_forces = fields_ || forces.any_of_velocity();
   if (velocity_forces) start_v_ = state.v;
   const Vertices& push = forces.position_forces(state, time);
   const Vertices& force = with_energies(system_, state.x, time, push, force_);
-  springs_.kick_and_drift(pull_, force, drift, state.v, state.x);
+  const double squares = springs_.kick_and_drift(pull_, force, drift, state.v, state.x);
+  if (drift.h != 0) size_ = squares;
   return !velocity_forces || kick_of_velocity(state, time, forces);
 }
 
@@ -119,7 +128,7 @@ bool Verlet::kick_with_dashpots(State& state, double time, StepForces& forces) {
   damping.set_directions(state.x);
   if (half_damping_) damping.apply(state.v);
   start_v_ = state.v;
-  const bool found = kick(state, time, forces, 0);
+  const bool found = kick(state, time, forces, {.h = 0});
   if (half_damping_) {
     damping.apply(state.v);
   } else {

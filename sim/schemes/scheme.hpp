@@ -26,6 +26,9 @@ class Scheme {
   /// them as an initial guess, which saves iterations. They must stay valid until then.
   virtual void expect(const Vertices& /*early*/, const Vertices& /*late*/) {}
 
+  /// Returns a number that is finite if all positions at the end of the last step are, if the step has found one.
+  [[nodiscard]] virtual std::optional<double> size() const { return std::nullopt; }
+
   // Methods that minimise nothing return zero or nothing:
 
   /// Returns the estimated distance of the worst vertex from the exact solution of the last step [m]; see

@@ -37,6 +37,18 @@ TEST_P(Determinism, SameSettingsGiveTheSameBits) {
   expect_same_bits(run(settings), run(settings));
 }
 
+// Effects whose time is measured act one after another; otherwise an explicit step damps and moves in one pass.
+TEST_P(Determinism, DampingWithinAStepHasTheBitsOfDampingAfterIt) {
+  SimulationSettings settings = scene(GetParam());
+  settings.effects = {Gravity{}, homework_damping()};
+  Simulation within(settings), after(settings, Timing::effects);
+  for (int step = 0; step < steps; ++step) {
+    within.step();
+    after.step();
+  }
+  expect_same_bits(within.state(), after.state());
+}
+
 TEST_P(Determinism, SimulationsThatTakeTurnsDoNotDisturbEachOther) {
   const SimulationSettings settings = scene(GetParam());
   SimulationSettings stiffer = settings;

@@ -134,7 +134,8 @@ struct SpringPasses {
     springs.add_diagonal(blocks, diagonal);
     moved = x;
     velocities = random_vertices(n, 4);
-    for (int step = 0; step < 3; ++step) springs.kick_and_drift(factor, y, 0.01, velocities, moved);
+    for (int step = 0; step < 3; ++step)
+      springs.kick_and_drift(factor, y, {.h = 0.01, .before = 0.9, .after = 0.8}, velocities, moved);
   }
 };
 
