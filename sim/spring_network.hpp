@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "drape/sim/cloth.hpp"
@@ -89,6 +90,15 @@ class SpringNetwork {
   double kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, const Drift& drift, Vertices& v,
                         Vertices& x) const;
 
+  /// Returns the number of steps that kick_and_drift_times() takes at most; 1 if it does not pay.
+  [[nodiscard]] int most_steps() const;
+  /// Calls kick_and_drift() `count` times, with a drift `between` them, in one pass over the memory: each step follows
+  /// the one before through the cache, as close as springs reach. Several threads take a share of the steps each. The
+  /// bits are those of single steps.
+  /// @param count up to most_steps()
+  double kick_and_drift_times(int count, const Eigen::VectorXd& factor, const Vertices& force, const Drift& drift,
+                              const Drift& between, Vertices& v, Vertices& x) const;
+
   /// Hessian of the springs, one symmetric 3×3 block per spring, with d = xᵢ − xⱼ:
   ///   K = k (1 − s) I + k s x̂x̂ᵀ = across·I + along·alongᵀ,  s = share_across(L/‖d‖, concavity).
   /// With concavity 0 it is exact for stretched springs and k x̂x̂ᵀ for compressed ones.
@@ -135,6 +145,27 @@ class SpringNetwork {
     bool leads;
   };
 
+  /// A pass over the stretches of a part in order, one at a time.
+  class Pass {
+   public:
+    Pass(const SpringNetwork& network, Part& part);
+    [[nodiscard]] bool over() const { return first_ >= part_->end; }
+    /// Calls use(place, stretch) for the next stretch.
+    template <class Use>
+    void next(Use&& use);
+
+   private:
+    [[nodiscard]] double* column(const Band& b, int axis) const;
+
+    const SpringNetwork* network_;
+    Part* part_;
+    int first_;                                    // vertex of the next stretch
+    std::array<std::size_t, max_bands> places_{};  // of its forces in each band's scratch memory
+  };
+
+  static constexpr int most_at_once = 8;  // steps per pass
+
+  void make_waves() const;
   void find_bands();
   /// Finds the bands and fills in their springs; returns the others.
   std::vector<Spring> fill_bands();
@@ -157,6 +188,7 @@ class SpringNetwork {
   std::vector<Band> bands_;  // sorted by offset
   const Threads& threads_;
   mutable std::vector<Part> parts_;
+  mutable std::vector<Part> waves_;        // all vertices once per step of a pass, if several steps pay
   AlignedVector stiffness_, rest_length_;  // of the bands
   GatheredSprings gathered_;
   mutable std::vector<double> values_;  // per stretch, if there are several parts

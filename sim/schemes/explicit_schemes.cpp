@@ -22,11 +22,29 @@ const Vertices& with_energies(const System& system, const Vertices& x, double ti
   return scratch;
 }
 
+namespace {
+
+/// Returns true if steps have nothing but springs, constant forces and corrections.
+bool acts_alike(const System& system) {
+  return system.energies.empty() && system.fields.empty() && system.dashpots.empty() && system.filters.empty() &&
+         system.pin_motions.empty() &&
+         std::ranges::all_of(system.forces, [](const auto& force) { return force->constant(); });
+}
+
+/// Returns the number of steps to take at once when some are left, so that all passes have about as many.
+int even_share(std::int64_t left, int most) {
+  const std::int64_t passes = (left + most - 1) / most;
+  return static_cast<int>((left + passes - 1) / passes);
+}
+
+}  // namespace
+
 SemiImplicitEuler::SemiImplicitEuler(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count(), system.threads),
       pull_(explicit_pull(system)),
-      decay_(system.decay(system.step)) {
+      decay_(system.decay(system.step)),
+      alike_(decay_ && acts_alike(system)) {
   if (!system.dashpots.empty())
     damping_.emplace(system, system.whole_step / static_cast<double>(DampingKick::kicks_in(system.substeps)));
   if (!system.fields.empty()) fields_.emplace(system);
@@ -58,6 +76,14 @@ StepReport SemiImplicitEuler::advance(State& state, StepForces& forces) {
   return report;
 }
 
+std::int64_t SemiImplicitEuler::advance_at_once(State& state, StepForces& forces, std::int64_t left) {
+  if (!alike_ || springs_.most_steps() == 1 || left == 1) return 0;
+  const int count = even_share(left, springs_.most_steps());
+  size_ = springs_.kick_and_drift_times(count, pull_, forces.all(state, system_.time(state.step)),
+                                        {.h = system_.step, .before = *decay_}, {.h = 0}, state.v, state.x);
+  return count;
+}
+
 namespace {
 
 bool depends_on_velocities(const System& system) {
@@ -71,7 +97,8 @@ Verlet::Verlet(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count(), system.threads),
       pull_(explicit_pull(system)),
-      half_decay_(system.decay(system.step / 2)) {
+      half_decay_(system.decay(system.step / 2)),
+      alike_(half_decay_ && acts_alike(system)) {
   if (!system.dashpots.empty() && depends_on_velocities(system)) {
     half_damping_.emplace(system, system.step / 2);
   } else if (!system.dashpots.empty()) {
@@ -110,6 +137,16 @@ StepReport Verlet::advance(State& state, StepForces& forces) {
   system_.correct_half(state);
   system_.drive_pins(end, state.v);
   return report;
+}
+
+std::int64_t Verlet::advance_at_once(State& state, StepForces& forces, std::int64_t left) {
+  if (!alike_ || springs_.most_steps() == 1 || left == 1) return 0;
+  const int count = even_share(left, springs_.most_steps());
+  const Drift before{.h = system_.step / 2, .before = *half_decay_}, after{.h = before.h, .after = *half_decay_};
+  const Vertices& force = forces.position_forces(state, system_.time(state.step));
+  drift(system_.threads, before, state.v, state.x);
+  size_ = springs_.kick_and_drift_times(count, pull_, force, after, before, state.v, state.x);
+  return count;
 }
 
 bool Verlet::kick(State& state, double time, StepForces& forces, const Drift& drift) {

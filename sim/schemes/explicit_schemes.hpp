@@ -27,6 +27,7 @@ class SemiImplicitEuler final : public Scheme {
   /// @throws UsageError if the system has energies that only implicit methods support
   explicit SemiImplicitEuler(const System& system);
   StepReport advance(State& state, StepForces& forces) override;
+  std::int64_t advance_at_once(State& state, StepForces& forces, std::int64_t left) override;
   [[nodiscard]] std::optional<double> size() const override { return size_; }
 
  private:
@@ -34,6 +35,7 @@ class SemiImplicitEuler final : public Scheme {
   SpringNetwork springs_;
   Eigen::VectorXd pull_;         // −h/m of each vertex, 0 on pins [s/kg]
   std::optional<double> decay_;  // see System::decay
+  bool alike_;                   // steps have nothing but springs, constant forces and that decay
   std::optional<double> size_;
   Vertices force_;                      // plus those of energies; empty without [N]
   Vertices before_;                     // velocities before the kick, if there are fields or dashpots [m/s]
@@ -57,6 +59,7 @@ class Verlet final : public Scheme {
   /// @throws UsageError if the system has energies that only implicit methods support
   explicit Verlet(const System& system);
   StepReport advance(State& state, StepForces& forces) override;
+  std::int64_t advance_at_once(State& state, StepForces& forces, std::int64_t left) override;
   [[nodiscard]] std::optional<double> size() const override { return size_; }
 
  private:
@@ -75,6 +78,7 @@ class Verlet final : public Scheme {
   SpringNetwork springs_;
   Eigen::VectorXd pull_;              // −h/m of each vertex, 0 on pins [s/kg]
   std::optional<double> half_decay_;  // of half a step, see System::decay
+  bool alike_;                        // steps have nothing but springs, constant forces and that decay
   std::optional<double> size_;
   Vertices start_x_, start_v_, way_;
   Vertices force_, more_force_;  // [N]

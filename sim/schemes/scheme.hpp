@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "drape/sim/solvers/accuracy.hpp"
@@ -17,6 +18,11 @@ class Scheme {
   /// Advances x and v to the end of the step; the caller advances state.step. The result depends on the state alone.
   /// @param forces of the system
   virtual StepReport advance(State& state, StepForces& forces) = 0;
+
+  /// Advances by several steps at once, if that is faster than single steps and has the same bits.
+  /// @param left number of steps until the state is needed
+  /// @returns the number of steps done; 0: none
+  virtual std::int64_t advance_at_once(State& /*state*/, StepForces& /*forces*/, std::int64_t /*left*/) { return 0; }
 
   /// Returns ‖∇g‖ at the end of the last step, the 2-norm of the residual forces over all unknowns [N]. Zero for a
   /// method that minimises nothing. Evaluated on request, outside the step.
