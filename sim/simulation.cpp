@@ -83,7 +83,8 @@ class Simulation::Motion {
   [[nodiscard]] double time() const { return static_cast<double>(state.step) * settings.step; }
   /// Returns true if a step checks for a stop after its start.
   [[nodiscard]] bool may_be_interrupted() const {
-    const bool long_steps = !is_explicit(settings.integrator.method) || settings.accuracy || !system->filters.empty();
+    const bool long_steps = !is_explicit(settings.integrator.method) || settings.accuracy || system->substeps > 1 ||
+                            !system->filters.empty();
     return stop.possible() && long_steps;
   }
   /// Replaces the system and the scheme if the pins of the next step differ.
