@@ -83,7 +83,8 @@ class Simulation::Motion {
   [[nodiscard]] double time() const { return static_cast<double>(state.step) * settings.step; }
   /// Returns true if a step checks for a stop after its start.
   [[nodiscard]] bool may_be_interrupted() const {
-    const bool long_steps = !is_explicit(settings.integrator.method) || settings.accuracy || !system->filters.empty();
+    const bool long_steps = !is_explicit(settings.integrator.method) || settings.accuracy || system->substeps > 1 ||
+                            !system->filters.empty();
     return stop.possible() && long_steps;
   }
   /// Replaces the system and the scheme if the pins of the next step differ.
@@ -136,7 +137,8 @@ StepReport Simulation::Motion::step() {
   for (const auto& filter : system->filters) report.converged = report.converged && filter->converged();
   ++state.step;
   // Any non-finite position makes this norm non-finite, and any such velocity its vertex's position.
-  if (!std::isfinite(norm(threads, state.x))) throw diverged_by(std::nullopt);
+  const std::optional<double> size = scheme->size();
+  if (!std::isfinite(size ? *size : norm(threads, state.x))) throw diverged_by(std::nullopt);
   if (const auto growth = guard->look(state, forces.push(), forces.constant(), energy)) throw diverged_by(growth);
   return report;
 }

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -21,11 +23,24 @@ constexpr int worth_a_band = 4;
 // Common multiple of all kernels' vector sizes. Stretches are multiples of it, so that all kernels divide alike.
 constexpr int widest_vector = 8;
 
+// Number of vertices from which several steps per pass pay: a step then moves more memory than a core's cache holds.
+constexpr int worth_several_steps = 60000;
+
 int offset(const Spring& s) { return s.j - s.i; }
 
 std::size_t padded(int count) {
   constexpr std::size_t vector = widest_vector;
   return (static_cast<std::size_t>(count) + vector - 1) / vector * vector;
+}
+
+/// Waits until another thread has raised a number to at least `least`.
+void wait_until(const Threads& threads, const std::atomic<int>& number, int least) {
+  int now = number.load(std::memory_order_acquire);
+  if (now >= least) return;
+  Wait wait(threads);
+  for (; now < least; now = number.load(std::memory_order_acquire)) {
+    if (wait.go_on()) number.wait(now, std::memory_order_acquire);
+  }
 }
 
 }  // namespace
@@ -120,39 +135,46 @@ SpringBand SpringNetwork::band(const Band& b, int first, double* force) const {
                                     : Columns<double>{force, force + b.capacity, force + 2 * b.capacity}};
 }
 
+SpringNetwork::Pass::Pass(const SpringNetwork& network, Part& part)
+    : network_(&network), part_(&part), first_(part.lead) {
+  for (std::size_t b = 0; b < network.bands_.size(); ++b) {
+    const auto lead = static_cast<std::ptrdiff_t>(places_[b] = network.bands_[b].lead);
+    for (int axis = 0; axis < 3; ++axis) std::fill_n(column(network.bands_[b], axis), lead, 0.0);
+  }
+}
+
+double* SpringNetwork::Pass::column(const Band& b, int axis) const {
+  return part_->force.data() + b.scratch + static_cast<std::size_t>(axis) * b.capacity;
+}
+
+template <class Use>
+void SpringNetwork::Pass::next(Use&& use) {
+  const bool leads = first_ < part_->first;
+  const int size = std::min(kernel_size, (leads ? part_->first : part_->end) - first_);
+  const auto count = static_cast<std::size_t>(size);
+  std::array<SpringBand, max_bands> given{};
+  for (std::size_t b = 0; b < network_->bands_.size(); ++b) {
+    const Band& own = network_->bands_[b];
+    if (places_[b] + count > own.capacity) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double* end = column(own, axis) + places_[b];
+        std::copy(end - own.lead, end, column(own, axis));
+      }
+      places_[b] = own.lead;
+    }
+    given[b] = network_->band(own, first_, part_->force.data() + own.scratch + places_[b]);
+    places_[b] += count;
+  }
+  use(Place{first_, leads}, SpringStretch{.count = size,
+                                          .vertices_after = network_->vertex_count_ - first_ - size,
+                                          .bands = given.data(),
+                                          .band_count = static_cast<int>(network_->bands_.size())});
+  first_ += size;
+}
+
 template <class Use>
 void SpringNetwork::for_stretches(Part& part, Use&& use) const {
-  std::array<std::size_t, max_bands> places{};
-  const auto column = [&](const Band& b, int axis) {
-    return part.force.begin() + static_cast<std::ptrdiff_t>(b.scratch + static_cast<std::size_t>(axis) * b.capacity);
-  };
-  for (std::size_t b = 0; b < bands_.size(); ++b) {
-    const auto lead = static_cast<std::ptrdiff_t>(places[b] = bands_[b].lead);
-    for (int axis = 0; axis < 3; ++axis) std::fill_n(column(bands_[b], axis), lead, 0.0);
-  }
-  std::array<SpringBand, max_bands> given{};
-  for (int first = part.lead; first < part.end;) {
-    const bool leads = first < part.first;
-    const int size = std::min(kernel_size, (leads ? part.first : part.end) - first);
-    const auto count = static_cast<std::size_t>(size);
-    for (std::size_t b = 0; b < bands_.size(); ++b) {
-      const Band& own = bands_[b];
-      if (places[b] + count > own.capacity) {
-        for (int axis = 0; axis < 3; ++axis) {
-          const auto end = column(own, axis) + static_cast<std::ptrdiff_t>(places[b]);
-          std::copy(end - static_cast<std::ptrdiff_t>(own.lead), end, column(own, axis));
-        }
-        places[b] = own.lead;
-      }
-      given[b] = band(own, first, part.force.data() + own.scratch + places[b]);
-      places[b] += count;
-    }
-    use(Place{first, leads}, SpringStretch{.count = size,
-                                           .vertices_after = vertex_count_ - first - size,
-                                           .bands = given.data(),
-                                           .band_count = static_cast<int>(bands_.size())});
-    first += size;
-  }
+  for (Pass pass(*this, part); !pass.over();) pass.next(use);
 }
 
 template <class Use>
@@ -204,8 +226,8 @@ void SpringNetwork::keep_surroundings(Part& part, const Vertices& x) const {
   if (part.at_tail.rows() > 0) part.at_tail = x.middleRows(part.tail, part.at_tail.rows());
 }
 
-void SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, double h, Vertices& v,
-                                   Vertices& x) const {
+double SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, const Drift& drift,
+                                     Vertices& v, Vertices& x) const {
   const Vertices* other = &force;
   if (gathered_.size() > 0) {
     set_zero(threads_, other_force_);
@@ -219,18 +241,84 @@ void SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices
   threads_.for_each(parts, [&](int p) {
     Part& part = part_of(p);
     part.nowhere.setZero();
+    part.squares = 0;
     for_stretches(part, [&](const Place& place, const SpringStretch& stretch) {
       const int first = place.first;
       const Vertices& at = place.leads ? part.at_lead : first >= part.tail ? part.at_tail : std::as_const(x);
       const int begin = place.leads ? part.lead : first >= part.tail ? part.tail : 0;
-      kernels().kick_bands(stretch, {.factor = factor.data() + first,
-                                     .force = columns(*other, first),
-                                     .h = h,
-                                     .velocity = place.leads ? columns(part.nowhere) : columns(v, first),
-                                     .from = columns(at, first - begin),
-                                     .position = place.leads ? columns(part.nowhere) : columns(x, first)});
+      const double squares =
+          kernels().kick_bands(stretch, {.factor = factor.data() + first,
+                                         .force = columns(*other, first),
+                                         .drift = drift,
+                                         .velocity = place.leads ? columns(part.nowhere) : columns(v, first),
+                                         .from = columns(at, first - begin),
+                                         .position = place.leads ? columns(part.nowhere) : columns(x, first)});
+      if (!place.leads) part.squares += squares;
     });
   });
+  double squares = 0;
+  for (const Part& part : parts_) squares += part.squares;
+  return squares;
+}
+
+int SpringNetwork::most_steps() const {
+  return gathered_.size() > 0 || bands_.empty() || vertex_count_ < worth_several_steps ? 1 : most_at_once;
+}
+
+void SpringNetwork::make_waves() const {
+  waves_.resize(most_at_once);
+  for (Part& wave : waves_) {
+    wave.end = vertex_count_;
+    wave.force.assign(bands_.back().scratch + 3 * bands_.back().capacity, 0.0);
+  }
+}
+
+double SpringNetwork::kick_and_drift_times(int count, const Eigen::VectorXd& factor, const Vertices& force,
+                                           const Drift& drift, const Drift& between, Vertices& v, Vertices& x) const {
+  if (waves_.empty()) make_waves();
+  const Kernels& k = kernels();
+  const int stretches = (vertex_count_ + kernel_size - 1) / kernel_size;
+  const int reach = (bands_.back().offset + kernel_size - 1) / kernel_size;
+  const int groups = std::min(threads_.count(), count);
+  std::array<std::atomic<int>, most_at_once> done{};  // stretches that each group's last step has moved
+  double squares = 0;
+  threads_.for_each(groups, [&](int group) {
+    const int begin = count * group / groups, end = count * (group + 1) / groups;
+    std::array<std::optional<Pass>, most_at_once> passes;
+    for (int step = begin; step < end; ++step) {
+      passes[static_cast<std::size_t>(step)].emplace(*this, waves_[static_cast<std::size_t>(step)]);
+    }
+    const int behind = (end - 1 - begin) * reach;  // stretches between the first and the last step
+    for (int front = 0; front < stretches + behind; ++front) {
+      const int needed = std::min(front + reach + 1, stretches);
+      if (group > 0) wait_until(threads_, done[static_cast<std::size_t>(group) - 1], needed);
+      for (int step = begin; step < end; ++step) {
+        const int stretch = front - (step - begin) * reach;
+        if (stretch < 0 || stretch >= stretches) continue;
+        passes[static_cast<std::size_t>(step)]->next([&](const Place& place, const SpringStretch& springs) {
+          const int first = place.first;
+          const double moved = k.kick_bands(springs, {.factor = factor.data() + first,
+                                                      .force = columns(force, first),
+                                                      .drift = drift,
+                                                      .velocity = columns(v, first),
+                                                      .from = columns(std::as_const(x), first),
+                                                      .position = columns(x, first)});
+          if (step == count - 1) {
+            squares += moved;
+          } else if (between.h != 0) {
+            for (int axis = 0; axis < 3; ++axis) {
+              k.drift(static_cast<std::size_t>(springs.count), between, v.col(axis).data() + first,
+                      x.col(axis).data() + first);
+            }
+          }
+        });
+      }
+      if (front < behind) continue;
+      done[static_cast<std::size_t>(group)].store(front - behind + 1, std::memory_order_release);
+      done[static_cast<std::size_t>(group)].notify_one();
+    }
+  });
+  return squares;
 }
 
 void SpringNetwork::compute_blocks(const Vertices& x, double concavity, Blocks& blocks) const {

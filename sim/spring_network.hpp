@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "drape/sim/cloth.hpp"
@@ -82,10 +83,21 @@ class SpringNetwork {
   /// @param inertia per vertex [N/m]
   double evaluate(const Eigen::VectorXd& inertia, const Vertices& y, const Vertices& x, Vertices& gradient) const;
 
-  /// Applies the springs in an explicit step: v += factor·(∇E(x) − force), then x += h·v.
+  /// Applies the springs in an explicit step: v += factor·(∇E(x) − force), then the drift.
   /// @param factor −h/m of each vertex, 0 on pins [s/kg]
-  /// @param h      0 to change the velocities only [s]
-  void kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, double h, Vertices& v, Vertices& x) const;
+  /// @param drift  with h = 0 to change the velocities only
+  /// @returns Σ‖x‖², in no fixed order; not finite if any position is not [m²]
+  double kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, const Drift& drift, Vertices& v,
+                        Vertices& x) const;
+
+  /// Returns the number of steps that kick_and_drift_times() takes at most; 1 if it does not pay.
+  [[nodiscard]] int most_steps() const;
+  /// Calls kick_and_drift() `count` times, with a drift `between` them, in one pass over the memory: each step follows
+  /// the one before through the cache, as close as springs reach. Several threads take a share of the steps each. The
+  /// bits are those of single steps.
+  /// @param count up to most_steps()
+  double kick_and_drift_times(int count, const Eigen::VectorXd& factor, const Vertices& force, const Drift& drift,
+                              const Drift& between, Vertices& v, Vertices& x) const;
 
   /// Hessian of the springs, one symmetric 3×3 block per spring, with d = xᵢ − xⱼ:
   ///   K = k (1 − s) I + k s x̂x̂ᵀ = across·I + along·alongᵀ,  s = share_across(L/‖d‖, concavity).
@@ -124,6 +136,7 @@ class SpringNetwork {
     int tail = 0;                         // start of the first stretch with springs to the next part
     AlignedVector force = {};             // forces of the springs of each band, while needed in a pass
     Vertices nowhere = {};                // receives results for vertices before the first
+    double squares = 0;                   // Σ‖x‖² of its vertices after a kick [m²]
     Vertices at_lead = {}, at_tail = {};  // copies of positions from these vertices on, before other threads move them
   };
   /// Position of a stretch in a part; `leads` is true if it lies before the part.
@@ -132,6 +145,27 @@ class SpringNetwork {
     bool leads;
   };
 
+  /// A pass over the stretches of a part in order, one at a time.
+  class Pass {
+   public:
+    Pass(const SpringNetwork& network, Part& part);
+    [[nodiscard]] bool over() const { return first_ >= part_->end; }
+    /// Calls use(place, stretch) for the next stretch.
+    template <class Use>
+    void next(Use&& use);
+
+   private:
+    [[nodiscard]] double* column(const Band& b, int axis) const;
+
+    const SpringNetwork* network_;
+    Part* part_;
+    int first_;                                    // vertex of the next stretch
+    std::array<std::size_t, max_bands> places_{};  // of its forces in each band's scratch memory
+  };
+
+  static constexpr int most_at_once = 8;  // steps per pass
+
+  void make_waves() const;
   void find_bands();
   /// Finds the bands and fills in their springs; returns the others.
   std::vector<Spring> fill_bands();
@@ -154,6 +188,7 @@ class SpringNetwork {
   std::vector<Band> bands_;  // sorted by offset
   const Threads& threads_;
   mutable std::vector<Part> parts_;
+  mutable std::vector<Part> waves_;        // all vertices once per step of a pass, if several steps pay
   AlignedVector stiffness_, rest_length_;  // of the bands
   GatheredSprings gathered_;
   mutable std::vector<double> values_;  // per stretch, if there are several parts

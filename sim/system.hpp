@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -113,6 +114,8 @@ struct Correction {
   virtual ~Correction() = default;
   /// Changes state.v after a step of h seconds. Semi-implicit Euler then moves with the changed velocity.
   virtual void apply(State& state, double h) const = 0;
+  /// Returns the factor by which apply() multiplies every velocity, if it does nothing else.
+  [[nodiscard]] virtual std::optional<double> decay(double /*h*/) const { return std::nullopt; }
 };
 
 /// A change of a step's motion before the vertices move: contact, friction, strain limits. After Bridson, Fedkiw and
@@ -233,6 +236,12 @@ struct System {
   void correct(State& state) const {
     for (const auto& correction : corrections) correction->apply(state, step);
     for (const PinMotion& motion : pin_motions) motion.drive(time(state.step), time(state.step + 1), state.v);
+  }
+
+  /// Returns the factor by which the corrections of h seconds multiply every velocity, if they do nothing else.
+  [[nodiscard]] std::optional<double> decay(double h) const {
+    if (corrections.empty()) return 1;
+    return corrections.size() == 1 ? corrections.front()->decay(h) : std::nullopt;
   }
 
   // Start and end of a step of second-order schemes, whose velocities are instantaneous.

@@ -59,6 +59,7 @@ Kernels timed_version(const Kernels& plain) {
   wrap<&Kernels::add_list_product, KernelPart::product>(k);
   wrap<&Kernels::add_scaled, KernelPart::vectors>(k);
   wrap<&Kernels::add_multiple, KernelPart::vectors>(k);
+  wrap<&Kernels::drift, KernelPart::vectors>(k);
   wrap<&Kernels::dots, KernelPart::vectors>(k);
   wrap<&Kernels::add_multiples, KernelPart::vectors>(k);
   wrap<&Kernels::pack_single, KernelPart::global>(k);

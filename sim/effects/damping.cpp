@@ -14,6 +14,7 @@ struct VelocityDecay final : Correction {
   const Threads& threads;
   VelocityDecay(double f, const Threads& by) : factor(f), threads(by) {}
   void apply(State& state, double h) const override { scale(threads, std::pow(factor, h), state.v, state.v); }
+  [[nodiscard]] std::optional<double> decay(double h) const override { return std::pow(factor, h); }
 };
 
 }  // namespace

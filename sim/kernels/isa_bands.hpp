@@ -118,21 +118,26 @@ struct AddTo {
 
 struct KickAndDrift {
   SpringKick k;
+  LaneSum squares{};
 
   template <class V>
   void operator()(int t, const Triple<V>& at, const Triple<V>& sum) {
     const V factor = load<V>(k.factor + t);
-    axis(t, factor, at.x, sum.x, k.force.x, k.velocity.x, k.position.x);
-    axis(t, factor, at.y, sum.y, k.force.y, k.velocity.y, k.position.y);
-    axis(t, factor, at.z, sum.z, k.force.z, k.velocity.z, k.position.z);
+    const V x = axis(t, factor, at.x, sum.x, k.force.x, k.velocity.x, k.position.x);
+    const V y = axis(t, factor, at.y, sum.y, k.force.y, k.velocity.y, k.position.y);
+    const V z = axis(t, factor, at.z, sum.z, k.force.z, k.velocity.z, k.position.z);
+    squares.add(t, x * x + y * y + z * z);
   }
 
  private:
+  /// Returns the new position.
   template <class V>
-  void axis(int t, V factor, V at, V sum, const double* force, double* velocity, double* position) const {
-    const V v = load<V>(velocity + t) + factor * (sum - load<V>(force + t));
-    store<V>(velocity + t, v);
-    store<V>(position + t, at + k.h * v);
+  V axis(int t, V factor, V at, V sum, const double* force, double* velocity, double* position) const {
+    const V v = k.drift.before * (load<V>(velocity + t) + factor * (sum - load<V>(force + t)));
+    const V to = at + k.drift.h * v;
+    store<V>(velocity + t, k.drift.after * v);
+    store<V>(position + t, to);
+    return to;
   }
 };
 
@@ -181,10 +186,11 @@ double evaluate_bands(const SpringStretch& stretch, Columns<const double> positi
   return 0.5 * (finish.twice_energy.total() + energy_of(stretch, laws));
 }
 
-void kick_bands(const SpringStretch& stretch, const SpringKick& kick) {
+double kick_bands(const SpringStretch& stretch, const SpringKick& kick) {
   GradientLaw laws[max_bands];
   KickAndDrift finish{kick};
   sweep(stretch, kick.from, laws_of(stretch, laws), finish);
+  return finish.squares.total();
 }
 
 void add_band_product(const SpringStretch& stretch, const ConstSpringBlocks* blocks, Columns<const double> vector,

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "sim/kernels/kernels.hpp"
+
 // Vectors of DRAPE_LANES doubles. Only for inclusion by kernels_isa.cpp, see there.
 
 namespace drape {
@@ -60,6 +62,15 @@ void add_scaled(std::size_t count, const double* __restrict factor, const double
 
 void add_multiple(std::size_t count, double factor, const double* __restrict from, double* __restrict to) {
   for (std::size_t t = 0; t < count; ++t) to[t] += factor * from[t];
+}
+
+void drift(std::size_t count, const Drift& drift, double* __restrict velocity, double* __restrict position) {
+  const double before = drift.before, h = drift.h, after = drift.after;
+  for (std::size_t t = 0; t < count; ++t) {
+    const double v = before * velocity[t];
+    position[t] += h * v;
+    velocity[t] = after * v;
+  }
 }
 
 /// Partial sums in interleaved lanes, kept in registers.

@@ -39,15 +39,22 @@ struct SpringStretch {
   int band_count;  ///< sorted by offset, the largest last
 };
 
-/// Explicit step from the springs' gradient: velocity += factor·(∇E − force), then position = from + h·velocity. For
-/// the vertices of a stretch.
+/// Move of vertices with decaying velocities: velocity *= before, position += h·velocity, velocity *= after.
+struct Drift {
+  double h;           ///< [s]
+  double before = 1;  ///< 1: no change
+  double after = 1;   ///< 1: no change
+};
+
+/// Explicit step from the springs' gradient: velocity += factor·(∇E − force), then the move of a `Drift`. For the
+/// vertices of a stretch.
 struct SpringKick {
   const double* factor;         ///< −h/m, 0 on pins [s/kg]
   Columns<const double> force;  ///< of everything outside of bands [N]
-  double h;                     ///< [s]
-  Columns<double> velocity;     ///< [m/s]
-  Columns<const double> from;   ///< positions of the vertices and of their springs' other ends [m]
-  Columns<double> position;     ///< may equal `from` [m]
+  Drift drift;
+  Columns<double> velocity;    ///< [m/s]
+  Columns<const double> from;  ///< positions of the vertices and of their springs' other ends [m]
+  Columns<double> position;    ///< may equal `from` [m]
 };
 
 /// Inertial term that an implicit step's objective adds to the springs' energy: Σ factor/2 (x − y)². For the vertices
@@ -130,8 +137,9 @@ struct Kernels {
   double (*add_band_value_gradient)(const SpringStretch&, Columns<const double> positions, Columns<double> gradient);
   /// Computes the gradient of inertia and bands; returns the value of both [J].
   double (*evaluate_bands)(const SpringStretch&, Columns<const double> positions, const SpringInertia&);
-  /// Moves the vertices of a stretch by an explicit step. Stretches must be passed in order.
-  void (*kick_bands)(const SpringStretch&, const SpringKick&);
+  /// Moves the vertices of a stretch by an explicit step. Stretches must be passed in order. Returns Σ‖position‖²,
+  /// which is not finite if any position is not [m²].
+  double (*kick_bands)(const SpringStretch&, const SpringKick&);
 
   /// Computes the springs' Hessian blocks at some positions, see SpringNetwork and share_across().
   void (*band_blocks)(const SpringBand&, int springs, double concavity, Columns<const double> positions, SpringBlocks);
@@ -145,6 +153,8 @@ struct Kernels {
   void (*add_scaled)(std::size_t count, const double* factor, const double* from, double* to);
   /// Adds factor·from to `to` for count numbers.
   void (*add_multiple)(std::size_t count, double factor, const double* from, double* to);
+  /// Moves `count` coordinates.
+  void (*drift)(std::size_t count, const Drift&, double* velocity, double* position);
   /// Computes results[k] = Σ vectors[k][t]·with[t] for k < many, t < count.
   void (*dots)(std::size_t count, int many, const double* const* vectors, const double* with, double* results);
   /// Adds Σ factors[k]·vectors[k] to `to` for k < many, count numbers each.

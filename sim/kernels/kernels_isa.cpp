@@ -49,6 +49,7 @@ constexpr Kernels DRAPE_TABLE = {
     .add_list_product = add_list_product,
     .add_scaled = add_scaled,
     .add_multiple = add_multiple,
+    .drift = drift,
     .dots = dots,
     .add_multiples = add_multiples,
     .pack_single = pack<FourSingles, float>,

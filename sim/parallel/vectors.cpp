@@ -112,6 +112,15 @@ void add_multiple(const Threads& threads, double factor, const Vertices& from, V
       numbers_worth_dividing);
 }
 
+void drift(const Threads& threads, const Drift& drift, Vertices& v, Vertices& x) {
+  for_ranges(
+      threads, x.size(),
+      [&](Eigen::Index first, Eigen::Index count) {
+        kernels().drift(static_cast<std::size_t>(count), drift, v.data() + first, x.data() + first);
+      },
+      numbers_worth_dividing);
+}
+
 void multiply_and_add(const Threads& threads, double factor, const Vertices& from, Vertices& to) {
   for_ranges(
       threads, from.size(),

@@ -38,6 +38,9 @@ void weigh(const Threads& threads, const Eigen::VectorXd& weights, const Vertice
 /// Adds factor·from to `to`.
 void add_multiple(const Threads& threads, double factor, const Vertices& from, Vertices& to);
 
+/// Moves positions x with decaying velocities v.
+void drift(const Threads& threads, const Drift& drift, Vertices& v, Vertices& x);
+
 /// Sets to = from + factor·to.
 void multiply_and_add(const Threads& threads, double factor, const Vertices& from, Vertices& to);
 

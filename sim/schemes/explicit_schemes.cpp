@@ -1,6 +1,7 @@
 #include "sim/schemes/explicit_schemes.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/parallel/vectors.hpp"
 
@@ -21,10 +22,29 @@ const Vertices& with_energies(const System& system, const Vertices& x, double ti
   return scratch;
 }
 
+namespace {
+
+/// Returns true if steps have nothing but springs, constant forces and corrections.
+bool acts_alike(const System& system) {
+  return system.energies.empty() && system.fields.empty() && system.dashpots.empty() && system.filters.empty() &&
+         system.pin_motions.empty() &&
+         std::ranges::all_of(system.forces, [](const auto& force) { return force->constant(); });
+}
+
+/// Returns the number of steps to take at once when some are left, so that all passes have about as many.
+int even_share(std::int64_t left, int most) {
+  const std::int64_t passes = (left + most - 1) / most;
+  return static_cast<int>((left + passes - 1) / passes);
+}
+
+}  // namespace
+
 SemiImplicitEuler::SemiImplicitEuler(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count(), system.threads),
-      pull_(explicit_pull(system)) {
+      pull_(explicit_pull(system)),
+      decay_(system.decay(system.step)),
+      alike_(decay_ && acts_alike(system)) {
   if (!system.dashpots.empty())
     damping_.emplace(system, system.whole_step / static_cast<double>(DampingKick::kicks_in(system.substeps)));
   if (!system.fields.empty()) fields_.emplace(system);
@@ -36,10 +56,11 @@ StepReport SemiImplicitEuler::advance(State& state, StepForces& forces) {
   const Vertices& force = with_energies(system_, state.x, start, forces.all(state, start), force_);
   // Do both updates in one pass if nothing changes the velocity in between.
   const bool damped = damping_ && DampingKick::acts_in(state.step, system_.substeps);
-  const bool at_once =
-      !damped && !fields_ && system_.corrections.empty() && system_.filters.empty() && system_.pin_motions.empty();
+  const bool at_once = !damped && !fields_ && decay_ && system_.filters.empty() && system_.pin_motions.empty();
   if (fields_ || damped) before_ = state.v;
-  springs_.kick_and_drift(pull_, force, at_once ? system_.step : 0, state.v, state.x);
+  const Drift drift = at_once ? Drift{.h = system_.step, .before = *decay_} : Drift{.h = 0};
+  const double squares = springs_.kick_and_drift(pull_, force, drift, state.v, state.x);
+  size_ = at_once ? std::optional(squares) : std::nullopt;
   StepReport report;
   if (at_once) return report;
   if (damped) {
@@ -55,6 +76,14 @@ StepReport SemiImplicitEuler::advance(State& state, StepForces& forces) {
   return report;
 }
 
+std::int64_t SemiImplicitEuler::advance_at_once(State& state, StepForces& forces, std::int64_t left) {
+  if (!alike_ || springs_.most_steps() == 1 || left == 1) return 0;
+  const int count = even_share(left, springs_.most_steps());
+  size_ = springs_.kick_and_drift_times(count, pull_, forces.all(state, system_.time(state.step)),
+                                        {.h = system_.step, .before = *decay_}, {.h = 0}, state.v, state.x);
+  return count;
+}
+
 namespace {
 
 bool depends_on_velocities(const System& system) {
@@ -67,7 +96,9 @@ bool depends_on_velocities(const System& system) {
 Verlet::Verlet(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count(), system.threads),
-      pull_(explicit_pull(system)) {
+      pull_(explicit_pull(system)),
+      half_decay_(system.decay(system.step / 2)),
+      alike_(half_decay_ && acts_alike(system)) {
   if (!system.dashpots.empty() && depends_on_velocities(system)) {
     half_damping_.emplace(system, system.step / 2);
   } else if (!system.dashpots.empty()) {
@@ -83,33 +114,48 @@ StepReport Verlet::advance(State& state, StepForces& forces) {
   const bool velocity_forces = fields_ || forces.any_of_velocity();
   StepReport report;
   const bool damped = half_damping_ || (damping_ && DampingKick::acts_in(state.step, system_.substeps));
-  const bool at_once = !velocity_forces && !damped && system_.filters.empty() && system_.pin_motions.empty();
+  const bool at_once =
+      !velocity_forces && !damped && half_decay_ && system_.filters.empty() && system_.pin_motions.empty();
+  size_.reset();
+  if (at_once) {
+    drape::drift(system_.threads, {.h = half, .before = *half_decay_}, state.v, state.x);
+    report.converged = kick(state, middle, forces, {.h = half, .after = *half_decay_});
+    return report;
+  }
   system_.begin(state);
   system_.correct_half(state);
   if (!system_.filters.empty()) start_x_ = state.x;
   drift();
   system_.place_pins(middle, state.x);
-  if (damped) report.converged = kick_with_dashpots(state, middle, forces);
-  if (!damped) report.converged = kick(state, middle, forces, at_once ? half : 0);
-  if (!at_once) {
-    drift();
-    system_.place_pins(end, state.x);
-    if (!system_.filters.empty()) {
-      std::swap(state.x, start_x_);
-      system_.move(state, start_x_, way_);
-    }
+  report.converged = damped ? kick_with_dashpots(state, middle, forces) : kick(state, middle, forces, {.h = 0});
+  drift();
+  system_.place_pins(end, state.x);
+  if (!system_.filters.empty()) {
+    std::swap(state.x, start_x_);
+    system_.move(state, start_x_, way_);
   }
   system_.correct_half(state);
   system_.drive_pins(end, state.v);
   return report;
 }
 
-bool Verlet::kick(State& state, double time, StepForces& forces, double drift) {
+std::int64_t Verlet::advance_at_once(State& state, StepForces& forces, std::int64_t left) {
+  if (!alike_ || springs_.most_steps() == 1 || left == 1) return 0;
+  const int count = even_share(left, springs_.most_steps());
+  const Drift before{.h = system_.step / 2, .before = *half_decay_}, after{.h = before.h, .after = *half_decay_};
+  const Vertices& force = forces.position_forces(state, system_.time(state.step));
+  drift(system_.threads, before, state.v, state.x);
+  size_ = springs_.kick_and_drift_times(count, pull_, force, after, before, state.v, state.x);
+  return count;
+}
+
+bool Verlet::kick(State& state, double time, StepForces& forces, const Drift& drift) {
   const bool velocity_forces = fields_ || forces.any_of_velocity();
   if (velocity_forces) start_v_ = state.v;
   const Vertices& push = forces.position_forces(state, time);
   const Vertices& force = with_energies(system_, state.x, time, push, force_);
-  springs_.kick_and_drift(pull_, force, drift, state.v, state.x);
+  const double squares = springs_.kick_and_drift(pull_, force, drift, state.v, state.x);
+  if (drift.h != 0) size_ = squares;
   return !velocity_forces || kick_of_velocity(state, time, forces);
 }
 
@@ -119,7 +165,7 @@ bool Verlet::kick_with_dashpots(State& state, double time, StepForces& forces) {
   damping.set_directions(state.x);
   if (half_damping_) damping.apply(state.v);
   start_v_ = state.v;
-  const bool found = kick(state, time, forces, 0);
+  const bool found = kick(state, time, forces, {.h = 0});
   if (half_damping_) {
     damping.apply(state.v);
   } else {

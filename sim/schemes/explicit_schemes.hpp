@@ -27,11 +27,16 @@ class SemiImplicitEuler final : public Scheme {
   /// @throws UsageError if the system has energies that only implicit methods support
   explicit SemiImplicitEuler(const System& system);
   StepReport advance(State& state, StepForces& forces) override;
+  std::int64_t advance_at_once(State& state, StepForces& forces, std::int64_t left) override;
+  [[nodiscard]] std::optional<double> size() const override { return size_; }
 
  private:
   const System& system_;
   SpringNetwork springs_;
-  Eigen::VectorXd pull_;                // −h/m of each vertex, 0 on pins [s/kg]
+  Eigen::VectorXd pull_;         // −h/m of each vertex, 0 on pins [s/kg]
+  std::optional<double> decay_;  // see System::decay
+  bool alike_;                   // steps have nothing but springs, constant forces and that decay
+  std::optional<double> size_;
   Vertices force_;                      // plus those of energies; empty without [N]
   Vertices before_;                     // velocities before the kick, if there are fields or dashpots [m/s]
   std::optional<DampingKick> damping_;  // if there are dashpots
@@ -54,11 +59,13 @@ class Verlet final : public Scheme {
   /// @throws UsageError if the system has energies that only implicit methods support
   explicit Verlet(const System& system);
   StepReport advance(State& state, StepForces& forces) override;
+  std::int64_t advance_at_once(State& state, StepForces& forces, std::int64_t left) override;
+  [[nodiscard]] std::optional<double> size() const override { return size_; }
 
  private:
-  /// Adds the effect of all forces at a time [s] to the velocities, then moves the vertices for `drift` seconds.
-  /// Returns true if the solve for velocity fields converged.
-  bool kick(State& state, double time, StepForces& forces, double drift);
+  /// Adds the effect of all forces at a time [s] to the velocities, then moves the vertices. Returns true if
+  /// the solve for velocity fields converged.
+  bool kick(State& state, double time, StepForces& forces, const Drift& drift);
   /// Does the same, with the dashpots and without moving the vertices.
   bool kick_with_dashpots(State& state, double time, StepForces& forces);
   /// Adds the effect of velocity-dependent forces to the velocities, which were start_v_ before the kick. Returns true
@@ -69,7 +76,10 @@ class Verlet final : public Scheme {
 
   const System& system_;
   SpringNetwork springs_;
-  Eigen::VectorXd pull_;  // −h/m of each vertex, 0 on pins [s/kg]
+  Eigen::VectorXd pull_;              // −h/m of each vertex, 0 on pins [s/kg]
+  std::optional<double> half_decay_;  // of half a step, see System::decay
+  bool alike_;                        // steps have nothing but springs, constant forces and that decay
+  std::optional<double> size_;
   Vertices start_x_, start_v_, way_;
   Vertices force_, more_force_;  // [N]
   Vertices before_;              // velocities before the kick [m/s]

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "drape/sim/solvers/accuracy.hpp"
@@ -18,6 +19,11 @@ class Scheme {
   /// @param forces of the system
   virtual StepReport advance(State& state, StepForces& forces) = 0;
 
+  /// Advances by several steps at once, if that is faster than single steps and has the same bits.
+  /// @param left number of steps until the state is needed
+  /// @returns the number of steps done; 0: none
+  virtual std::int64_t advance_at_once(State& /*state*/, StepForces& /*forces*/, std::int64_t /*left*/) { return 0; }
+
   /// Returns ‖∇g‖ at the end of the last step, the 2-norm of the residual forces over all unknowns [N]. Zero for a
   /// method that minimises nothing. Evaluated on request, outside the step.
   [[nodiscard]] virtual double residual() { return 0; }
@@ -25,6 +31,9 @@ class Scheme {
   /// Provides expected accelerations for the next step, early in it and at its end, n×3 [m/s²]. An implicit scheme uses
   /// them as an initial guess, which saves iterations. They must stay valid until then.
   virtual void expect(const Vertices& /*early*/, const Vertices& /*late*/) {}
+
+  /// Returns a number that is finite if all positions at the end of the last step are, if the step has found one.
+  [[nodiscard]] virtual std::optional<double> size() const { return std::nullopt; }
 
   // Methods that minimise nothing return zero or nothing:
 

@@ -247,6 +247,10 @@ StepReport DividedStep::advance(State& state, StepForces& forces) {
   for (std::int64_t k = 0; k < system_.substeps; ++k) {
     system_.stop.look();
     state.step = step * system_.substeps + k;
+    if (const std::int64_t done = scheme_->advance_at_once(state, forces, system_.substeps - k); done > 0) {
+      k += done - 1;
+      continue;
+    }
     const StepReport substep = scheme_->advance(state, forces);
     report.converged = report.converged && substep.converged;
     for (const auto& filter : system_.filters) report.converged = report.converged && filter->converged();

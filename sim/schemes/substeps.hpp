@@ -88,6 +88,7 @@ class DividedStep final : public Scheme {
   DividedStep(const System& system, std::unique_ptr<Scheme> scheme) : system_(system), scheme_(std::move(scheme)) {}
 
   StepReport advance(State& state, StepForces& forces) override;
+  [[nodiscard]] std::optional<double> size() const override { return scheme_->size(); }
 
  private:
   const System& system_;

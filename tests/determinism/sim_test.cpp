@@ -37,6 +37,39 @@ TEST_P(Determinism, SameSettingsGiveTheSameBits) {
   expect_same_bits(run(settings), run(settings));
 }
 
+// Effects whose time is measured act one after another; otherwise an explicit step damps and moves in one pass.
+TEST_P(Determinism, DampingWithinAStepHasTheBitsOfDampingAfterIt) {
+  SimulationSettings settings = scene(GetParam());
+  settings.effects = {Gravity{}, homework_damping()};
+  Simulation within(settings), after(settings, Timing::effects);
+  for (int step = 0; step < steps; ++step) {
+    within.step();
+    after.step();
+  }
+  expect_same_bits(within.state(), after.state());
+}
+
+// Substeps of a large grid are computed several at once, but not beside effects whose time is measured.
+TEST(LargeGrid, TakesSubstepsAtOnceWithTheBitsOfSingleSubsteps) {
+  for (const Method method : {Method::semi_implicit, Method::verlet}) {
+    for (const int threads : {1, 3}) {
+      SimulationSettings settings;
+      settings.cloth = cloth_of(make_grid(250, 240), 1, 0.01, {0, 250});
+      settings.step = 0.005;
+      settings.integrator.method = method;
+      settings.integrator.substeps = 11;
+      settings.threads = threads;
+      settings.effects = {Gravity{}, homework_damping()};
+      Simulation at_once(settings), single(settings, Timing::effects);
+      for (int step = 0; step < 2; ++step) {
+        at_once.step();
+        single.step();
+      }
+      expect_same_bits(at_once.state(), single.state());
+    }
+  }
+}
+
 TEST_P(Determinism, SimulationsThatTakeTurnsDoNotDisturbEachOther) {
   const SimulationSettings settings = scene(GetParam());
   SimulationSettings stiffer = settings;

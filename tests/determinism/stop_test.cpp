@@ -60,6 +60,10 @@ std::vector<SimulationSettings> cloths(Solver solver) {
   result.push_back(bare);
   result.back().accuracy = 1e-3;
   result.back().integrator.tolerance.reset();
+  if (is_explicit(bare.integrator.method)) {
+    result.push_back(bare);
+    result.back().integrator.substeps = 3;
+  }
   return result;
 }
 

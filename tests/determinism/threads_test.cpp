@@ -134,9 +134,45 @@ struct SpringPasses {
     springs.add_diagonal(blocks, diagonal);
     moved = x;
     velocities = random_vertices(n, 4);
-    for (int step = 0; step < 3; ++step) springs.kick_and_drift(factor, y, 0.01, velocities, moved);
+    for (int step = 0; step < 3; ++step)
+      springs.kick_and_drift(factor, y, {.h = 0.01, .before = 0.9, .after = 0.8}, velocities, moved);
   }
 };
+
+/// Takes steps of a large cloth one by one.
+void step_alone(const SpringNetwork& springs, int count, const Drift& drift_by, const Drift& between, Vertices& v,
+                Vertices& x) {
+  const Vertices force = random_vertices(x.rows(), 3);
+  const Eigen::VectorXd factor = Eigen::VectorXd::Constant(x.rows(), -0.001);
+  for (int step = 0; step < count; ++step) {
+    if (step > 0 && between.h != 0) drift(one_thread(), between, v, x);
+    springs.kick_and_drift(factor, force, drift_by, v, x);
+  }
+}
+
+TEST(Threads, TakeSeveralStepsAtOnceWithTheBitsOfSingleSteps) {
+  const Cloth cloth = cloth_of(make_grid(250, 240), 1, 180, {0, 250});
+  const Eigen::Index n = cloth.vertex_count();
+  const Drift move{.h = 0.01, .before = 0.9, .after = 0.8};
+  for (const Drift& between : {Drift{.h = 0}, Drift{.h = 0.02, .before = 0.7}}) {
+    for (const int count : {1, 2, 5, 8}) {
+      Vertices x = cloth.positions + 0.002 * random_vertices(n, 1), v = random_vertices(n, 2);
+      const Vertices start_x = x, start_v = v;
+      step_alone(SpringNetwork(cloth.springs, cloth.vertex_count()), count, move, between, v, x);
+      for (const int threads_count : {1, 2, 3, 8, 50}) {
+        const Threads threads(threads_count);
+        const SpringNetwork springs(cloth.springs, cloth.vertex_count(), threads);
+        ASSERT_GE(springs.most_steps(), count);
+        Vertices together_x = start_x, together_v = start_v;
+        const double squares = springs.kick_and_drift_times(
+            count, Eigen::VectorXd::Constant(n, -0.001), random_vertices(n, 3), move, between, together_v, together_x);
+        EXPECT_TRUE(same_bits(together_x, x)) << count << " steps, " << threads_count << " threads";
+        EXPECT_TRUE(same_bits(together_v, v)) << count << " steps, " << threads_count << " threads";
+        EXPECT_NEAR(squares, x.squaredNorm(), 1e-10 * squares);
+      }
+    }
+  }
+}
 
 void expect_the_same_bits(const Cloth& cloth) {
   const SpringPasses alone(cloth, one_thread());

@@ -143,10 +143,13 @@ TEST_P(KernelsVersion, SweepsBandsAlike) {
             << what;
         ASSERT_TRUE(same(to_a, to_b)) << what;
 
-        reference.kick_bands(a.stretch(count, after), {factor.data(), y_columns, 0.013, Springs::columns(to_a),
-                                                       a.springs.columns(), Springs::columns(a.springs.positions)});
-        tested.kick_bands(b.stretch(count, after), {factor.data(), y_columns, 0.013, Springs::columns(to_b),
-                                                    b.springs.columns(), Springs::columns(b.springs.positions)});
+        const Drift drift{.h = 0.013, .before = 0.9, .after = 0.8};
+        ASSERT_TRUE(same(
+            reference.kick_bands(a.stretch(count, after), {factor.data(), y_columns, drift, Springs::columns(to_a),
+                                                           a.springs.columns(), Springs::columns(a.springs.positions)}),
+            tested.kick_bands(b.stretch(count, after), {factor.data(), y_columns, drift, Springs::columns(to_b),
+                                                        b.springs.columns(), Springs::columns(b.springs.positions)})))
+            << what;
         ASSERT_TRUE(same(to_a, to_b) && same(a.springs.positions, b.springs.positions)) << what;
       }
     }
@@ -190,6 +193,15 @@ TEST_P(KernelsVersion, MultipliesAndAddsAlike) {
       tested.add_multiple(n, 0.013, a.data() + from, ours.data() + from);
       for (std::size_t t = from; t < from + n; ++t) plain[t] += 0.013 * a[t];
       ASSERT_TRUE(same(ours, plain)) << "add_multiple " << count << " from " << from;
+
+      std::vector<double> velocity = b, plain_velocity = b;
+      tested.drift(n, {.h = 0.013, .before = 0.9, .after = 0.8}, velocity.data() + from, ours.data() + from);
+      for (std::size_t t = from; t < from + n; ++t) {
+        plain_velocity[t] *= 0.9;
+        plain[t] += 0.013 * plain_velocity[t];
+        plain_velocity[t] *= 0.8;
+      }
+      ASSERT_TRUE(same(ours, plain) && same(velocity, plain_velocity)) << "drift " << count << " from " << from;
     }
   }
 }

@@ -132,11 +132,15 @@ TEST_P(SpringNetworkOf, KicksWithTheGradientOfWhereTheClothWas) {
   const Vertices force = random_vertices(GetParam().vertices, 79);
   const Eigen::VectorXd factor = random_vertices(GetParam().vertices, 80).col(0);
   constexpr double h = 0.01;
+  constexpr double before = 0.9, after = 0.8;
   Vertices x = start, v = velocity;
-  SpringNetwork(GetParam().springs, GetParam().vertices).kick_and_drift(factor, force, h, v, x);
+  const double squares = SpringNetwork(GetParam().springs, GetParam().vertices)
+                             .kick_and_drift(factor, force, {.h = h, .before = before, .after = after}, v, x);
   const Vertices change = (plain_gradient(GetParam().springs, start) - force).array().colwise() * factor.array();
-  EXPECT_LE((v - velocity - change).cwiseAbs().maxCoeff(), 1e-13 * (1 + change.cwiseAbs().maxCoeff()));
-  EXPECT_LE((x - start - h * v).cwiseAbs().maxCoeff(), 1e-15 * (1 + v.cwiseAbs().maxCoeff()));
+  const Vertices moving = before * (velocity + change);
+  EXPECT_LE((v - after * moving).cwiseAbs().maxCoeff(), 1e-13 * (1 + change.cwiseAbs().maxCoeff()));
+  EXPECT_LE((x - start - h * moving).cwiseAbs().maxCoeff(), 1e-13 * (1 + moving.cwiseAbs().maxCoeff()));
+  EXPECT_NEAR(squares, x.squaredNorm(), 1e-13 * squares);
 }
 
 TEST_P(SpringNetworkOf, HasTheGradientOfItsEnergy) {
