@@ -225,6 +225,10 @@ void unpack_motion(std::string_view bytes, Golden& golden) {
 
 namespace {
 
+// No later state of a recorded motion shows that an earlier one has changed, so each is the middle or the end of a
+// window.
+constexpr std::int64_t played_window_steps = 2;
+
 FilmExtent whole_film(const Scene& scene) {
   return FilmExtent(scene.video, scene.simulation.step, scene.step_count(), std::nullopt);
 }
@@ -317,7 +321,9 @@ std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings
                                          Progress& progress, PlayedMotion* recorded) {
   const FilmExtent film = whole_film(scene);
   RecordPlan plan;
-  plan.window_steps = std::max<std::int64_t>(1, std::llround(std::min(settings.window_time / film.step, 1e9)));
+  plan.window_steps = recorded != nullptr
+                          ? played_window_steps
+                          : std::max<std::int64_t>(1, std::llround(std::min(settings.window_time / film.step, 1e9)));
   plan.quanta = quanta_for(scene.simulation, settings.motion_tolerance);
   for (const int frame : settings.frames) {
     if (frame > film.frames.last) {

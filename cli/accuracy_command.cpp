@@ -173,7 +173,7 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
           // Save now, so that measurements survive an early end.
           study.seconds =
               begun.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-          write_file_atomically(std::filesystem::path(arguments.files.folder) / runs_name, runs_csv(study));
+          write_runs(study, arguments.files.folder);
         }
         return accuracy_report(study);
       });

@@ -49,9 +49,10 @@ ExitCode run_import(const ImportArguments& arguments, const CommonOptions& commo
     return ExitCode::interrupted;
   }
   if (!common.quiet) {
-    spdlog::info("{} frames, {:.6g} s apart, of {} vertices and {} triangles{}", found.frames, found.step,
-                 found.vertices, found.triangles,
-                 found.bodies == 0 ? "" : fmt::format(", and {} bodies", found.bodies));
+    spdlog::info(
+        "{} frames, {:.6g} s apart, of {} vertices and {} triangles{}", found.frames, found.step, found.vertices,
+        found.triangles,
+        found.bodies == 0 ? "" : fmt::format(", and {} {}", found.bodies, found.bodies == 1 ? "body" : "bodies"));
     print_text(stdout,
                fmt::format("{} ({:.1f} MB)\n", shown(arguments.output), 1e-6 * static_cast<double>(found.size)));
   }
@@ -193,7 +194,8 @@ void add_audit_command(CLI::App& app, const CommonOptions& common, Command& comm
   auto arguments = std::make_shared<AuditArguments>();
   CLI::App* sub = app.add_subcommand("audit", "Check motions exactly for what crosses, stretches or sticks");
   sub->add_option("MOTION", arguments->motions,
-                  "Motions (.drape), or scene files (TOML), which are simulated\nExits with 1 where something is found")
+                  "Motions: .drape, or what drape import reads; or scene files (TOML), which are simulated\nExits with "
+                  "1 where something is found")
       ->required();
   sub->add_option("-o,--output", arguments->page,
                   "Page of the audit with the worst states drawn: audit.html, or {scene}.html for several motions")

@@ -18,6 +18,7 @@
 #include "drape/core/error.hpp"
 #include "study/homework_report.hpp"
 #include "study/known_answers.hpp"
+#include "study/motions_file.hpp"
 #include "study/scaling.hpp"
 #include "study/stability.hpp"
 #include "study/stability_report.hpp"
@@ -243,8 +244,13 @@ ExitCode run_validation(const ValidationArguments& arguments, const CommonOption
   study.provenance = study_provenance();
   if (arguments.resume && std::filesystem::exists(file)) read_validation_runs(file, study);
   const double before = study.seconds;
+  std::optional<std::size_t> kept;  // number of motions in their file
   const auto save = [&] {
     study.seconds = before + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const auto motions = static_cast<std::size_t>(
+        std::ranges::count_if(study.runs, [](const ValidationRun& run) { return run.played.frames > 0; }));
+    if (motions != kept) write_file_atomically(file.parent_path() / motions_name, validation_motions(study));
+    kept = motions;
     write_file_atomically(file, validation_runs(study));
   };
   if (!whole) return run_shard(study, options, file, save, common);
@@ -266,6 +272,7 @@ ExitCode merge_validation_study(const std::vector<std::filesystem::path>& parts,
   const MergedValidation merged = merge_validation(files);
   for (const Shard& shard : merged.missing) spdlog::error("shard {} is missing: no report was written", shard.text());
   if (!merged.missing.empty()) return ExitCode::interrupted;
+  write_file_atomically(std::filesystem::path(to.folder) / motions_name, validation_motions(merged.study));
   write_file_atomically(std::filesystem::path(to.folder) / validation_runs_name, validation_runs(merged.study));
   return unless_missed(conclude_study(validation_report(merged.study), to, common), all_met(merged.study));
 }

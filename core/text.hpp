@@ -27,9 +27,6 @@ std::string shown(const std::filesystem::path& file);
 /// Formats a length [m] with three digits: "1.23 mm", "0.5 mm", "12 µm", "340 nm"; millimetres from 0.1 mm on.
 std::string readable_length(double metres);
 
-/// Encodes bytes as base64 (RFC 4648, section 4).
-std::string base64(std::string_view bytes);
-
 /// A width that no line reaches.
 inline constexpr std::size_t unlimited_width = static_cast<std::size_t>(-1);
 

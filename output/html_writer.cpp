@@ -164,6 +164,15 @@ void append_floats(std::initializer_list<double> numbers, std::string& bytes) {
   for (const double number : numbers) append_number<float>(bytes, static_cast<float>(number));
 }
 
+/// Returns the number of vertices of the cloth and the bodies.
+std::size_t vertices_of(const Frame& frame) {
+  auto count = static_cast<std::size_t>(frame.positions.rows());
+  for (const Collider& collider : frame.colliders) {
+    if (const auto* body = std::get_if<MeshShape>(&collider)) count += static_cast<std::size_t>(body->positions.rows());
+  }
+  return count;
+}
+
 }  // namespace
 
 /// A growing zlib stream.
@@ -207,7 +216,6 @@ MotionPacker::~MotionPacker() = default;
 void MotionPacker::add_mesh(const std::vector<Triangle>& triangles, Eigen::Index vertices, std::string& bytes) {
   const auto count = static_cast<std::size_t>(vertices);
   meshes_.push_back({IntegerTrack(triangles, vertices, 3), count, triangles.size()});
-  positions_ += count;
   append_triangles(triangles, bytes);
 }
 
@@ -262,13 +270,13 @@ VertexIntegers MotionPacker::whole(const Vertices& x) const {
 }
 
 void MotionPacker::add(const Frame& frame) {
-  if (frames_ == 0) add_first(frame);
-  const std::size_t most_frames = most_positions / std::max<std::size_t>(positions_, 1);
+  const std::size_t vertices = vertices_of(frame), most_frames = most_positions / std::max<std::size_t>(vertices, 1);
   if (static_cast<std::size_t>(std::max(film_.expected_frames, frames_ + 1)) > most_frames) {
     throw OutputError(
         fmt::format("a page holds {} frames of {} vertices at most: choose fewer, with --frames or --every",
-                    most_frames, positions_));
+                    most_frames, vertices));
   }
+  if (frames_ == 0) add_first(frame);
   ++frames_;
   poster_->see(frame.positions);
   std::string bytes;

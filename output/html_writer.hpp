@@ -106,7 +106,6 @@ class MotionPacker {
   Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
   Eigen::RowVector3d lowest_, highest_;  // bounds of cloth and colliders in all frames
   double precision_ = 1, time_ = 0;
-  std::size_t positions_ = 0;  // vertices per frame
   int spheres_ = 0, grounds_ = 0, frames_ = 0;
 };
 

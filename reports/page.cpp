@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "core/base64.hpp"
 #include "core/build_info.hpp"
 #include "core/machine.hpp"
 #include "core/text.hpp"

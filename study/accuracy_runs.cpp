@@ -13,6 +13,7 @@
 #include "drape/scene/scene.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/animation.hpp"
+#include "study/motions_file.hpp"
 #include "study/runs_file.hpp"
 #include "study/solve_error.hpp"
 
@@ -373,7 +374,8 @@ void read_point(RunsRecord& record, std::vector<Point>& points) {
 /// Reader of the records of a file, in order.
 class StudyReader {
  public:
-  explicit StudyReader(const std::filesystem::path& folder) : folder_(folder), file_((folder / runs_name).string()) {}
+  explicit StudyReader(const std::filesystem::path& folder)
+      : folder_(folder), file_((folder / runs_name).string()), motions_(read_motions(folder / motions_name)) {}
 
   void read(RunsRecord& record) {
     const std::string& kind = record.key.kind;
@@ -449,6 +451,9 @@ class StudyReader {
                                 stills = std::filesystem::path(file).replace_extension(".png");
     picture.bytes = read_file(file, most_picture_bytes);
     if (std::filesystem::exists(stills)) picture.stills = read_file(stills, most_picture_bytes);
+    for (const ShownMotion& one : motions_) {
+      if (one.part == picture.file) picture.motions.push_back(one.motion);
+    }
   }
 
   SceneAccuracy& scene(const RunsRecord& record) {
@@ -462,6 +467,7 @@ class StudyReader {
 
   std::filesystem::path folder_;
   std::string file_;
+  std::vector<ShownMotion> motions_;
   AccuracyStudy study_;
 };
 
@@ -498,6 +504,17 @@ std::string runs_csv(const AccuracyStudy& study) {
     }
   }
   return f.finish();
+}
+
+void write_runs(const AccuracyStudy& study, const std::filesystem::path& folder) {
+  std::vector<ShownMotion> motions;
+  for (const std::vector<StudyPicture>& pictures : study.pictures) {
+    for (const StudyPicture& picture : pictures) {
+      for (const StudyMotion& motion : picture.motions) motions.push_back({picture.file, motion});
+    }
+  }
+  if (!motions.empty()) write_file_atomically(folder / motions_name, motions_csv(motions));
+  write_file_atomically(folder / runs_name, runs_csv(study));
 }
 
 AccuracyStudy read_runs(const std::filesystem::path& folder) {

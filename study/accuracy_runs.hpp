@@ -74,7 +74,11 @@ inline constexpr const char* runs_name = "runs.csv";
 /// report. The format is described in docs/reference/study-data.md.
 std::string runs_csv(const AccuracyStudy& study);
 
-/// Reads a study from the folder of its results, with the animations.
+/// Writes a study's measurements, and the motions of its animations, into the folder of its results.
+/// @throws OutputError
+void write_runs(const AccuracyStudy& study, const std::filesystem::path& folder);
+
+/// Reads a study from the folder of its results, with the animations and their motions.
 /// @throws UsageError "file:line: message" if the file is missing, truncated or of another kind
 AccuracyStudy read_runs(const std::filesystem::path& folder);
 

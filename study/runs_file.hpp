@@ -73,6 +73,7 @@ class RunsWriter {
   static const std::string& text(const std::string& value) { return value; }
   static std::string text(double value) { return plain_number(value); }
   static std::string text(std::int64_t value) { return std::to_string(value); }
+  static std::string text(std::size_t value) { return std::to_string(value); }
   static std::string text(int value) { return std::to_string(value); }
   static std::string text(bool value) { return value ? "1" : "0"; }
   void put(const char* quantity, const std::string& run, const std::string& value);

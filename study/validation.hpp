@@ -109,7 +109,7 @@ struct ValidationRun {
   double rest_speed = 0;           ///< speed of the fastest vertex at the end [m/s]
   std::vector<std::string> names;  ///< names of the quantities
   std::vector<double> values;      ///< values of the quantities
-  html::PlayedMotion played = {};  ///< only for the first problem of --quick with the original scene; not kept in files
+  html::PlayedMotion played = {};  ///< only for the first problem of --quick with the original scene
 
   [[nodiscard]] std::optional<double> value(const std::string& quantity) const;
 };

@@ -13,6 +13,7 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "study/known_answers.hpp"
+#include "study/motions_file.hpp"
 #include "study/runs_file.hpp"
 
 namespace drape {
@@ -517,7 +518,25 @@ std::string validation_runs(const ValidationStudy& study) {
   return f.finish();
 }
 
-ValidationStudy validation_study(const std::filesystem::path& file) { return ValidationReader(file).finish(); }
+std::string validation_motions(const ValidationStudy& study) {
+  std::vector<ShownMotion> motions;
+  for (const ValidationRun& run : study.runs) {
+    if (run.played.frames > 0)
+      motions.push_back({run.name, {run.problem, run.what.film_command("motion.html"), run.played}});
+  }
+  return motions_csv(motions);
+}
+
+ValidationStudy validation_study(const std::filesystem::path& file) {
+  ValidationStudy study = ValidationReader(file).finish();
+  for (ShownMotion& shown : read_motions(file.parent_path() / motions_name)) {
+    const auto of = std::ranges::find_if(study.runs, [&](const ValidationRun& run) {
+      return run.factor == scene_factor && run.name == shown.part && run.problem == shown.motion.label;
+    });
+    if (of != study.runs.end()) of->played = std::move(shown.motion.played);
+  }
+  return study;
+}
 
 MergedValidation merge_validation(const std::vector<std::filesystem::path>& files) {
   MergedValidation merged;

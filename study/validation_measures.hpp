@@ -39,12 +39,15 @@ inline constexpr const char* validation_shard_name = "validation-runs.csv";
 /// Returns all measurements so far as a file of runs, see RunsWriter.
 std::string validation_runs(const ValidationStudy& study);
 
-/// Copies the measurements of a file into a planned study.
+/// Returns the recorded motions, see motions_csv().
+std::string validation_motions(const ValidationStudy& study);
+
+/// Copies the measurements of a file, and the motions beside it, into a planned study.
 /// @param study planned with the same command as the file
 /// @throws UsageError if the file is damaged or belongs to another study
 void read_validation_runs(const std::filesystem::path& file, ValidationStudy& study);
 
-/// Returns the study in a file, with the runs that it has.
+/// Returns the study in a file, with the runs that it has and the motions beside it.
 /// @throws UsageError likewise
 ValidationStudy validation_study(const std::filesystem::path& file);
 

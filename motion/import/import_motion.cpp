@@ -200,7 +200,7 @@ class ImportedScene {
 
   void add_cloth(MotionSource& cloth) {
     write_file_atomically(folder_ / "cloth.obj", exact_obj(cloth.mesh()));
-    text_ += "[cloth]\nmesh = \"cloth.obj\"\n";
+    text_ += "[cloth]\nmesh = { file = \"cloth.obj\", up = \"z\" }\n";  // without a hint about the axis
     if (const std::optional<Vertices> rest = cloth.rest()) {
       write_file_atomically(folder_ / "rest.obj", exact_obj({.positions = *rest, .triangles = cloth.mesh().triangles}));
       text_ += "rest = \"rest.obj\"\n";

@@ -5,10 +5,10 @@
 #include <zlib.h>
 #include <algorithm>
 #include <charconv>
-#include <cstring>
 #include <map>
 #include <optional>
 
+#include "core/base64.hpp"
 #include "core/files.hpp"
 #include "motion/import/import_motion.hpp"
 #include "motion/import/mesh_sequence.hpp"
@@ -204,14 +204,6 @@ std::optional<NumberType> vtk_type(const std::string& name) {
   return found == types.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// Returns the value of a base64 letter; −1 for any other character.
-int base64_value(char c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (c >= '0' && c <= '9') return c - '0' + 52;
-  return c == '+' ? 62 : c == '/' ? 63 : -1;
-}
-
 class VtkXml {
  public:
   VtkXml(const std::string& name, const std::string& text) : name_(name) {
@@ -289,27 +281,9 @@ class VtkXml {
 
   /// Decodes base64. A header of sizes may be encoded separately.
   [[nodiscard]] std::string encoded(const Element& array, std::string_view text) const {
-    std::string bytes;
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : text) {
-      if (c == '=') {  // end of a part: start again
-        bits = 0;
-        count = 0;
-        continue;
-      }
-      const int value = base64_value(c);
-      if (value < 0) {
-        if (std::strchr(" \t\r\n", c) != nullptr) continue;
-        fail(fmt::format("the array {} is no base64", attribute(array, "Name")));
-      }
-      bits = bits << 6 | static_cast<std::uint32_t>(value);
-      count += 6;
-      if (count < 8) continue;
-      count -= 8;
-      bytes += static_cast<char>(bits >> count & 0xFF);
-    }
-    return block(array, bytes);
+    const std::optional<std::string> bytes = from_base64(text);
+    if (!bytes) fail(fmt::format("the array {} is no base64", attribute(array, "Name")));
+    return block(array, *bytes);
   }
 
   [[nodiscard]] std::uint64_t size_at(const Element& array, std::string_view bytes, std::size_t place) const {

@@ -59,6 +59,18 @@ TEST(Import, MakesAMotionThatIsDrawnComparedAndAudited) {
   EXPECT_NE(audited.text.find("masses and springs of an imported motion are not known"), std::string::npos);
 }
 
+// A sheet that hangs in the xz plane looks like one that lies, with y up; the import has said which axis it is.
+TEST(Import, NeedsNoHintAboutItsAxis) {
+  const SceneFolder folder;
+  for (int frame = 0; frame < 2; ++frame) {
+    folder.write(fmt::format("{}.obj", frame), "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 1 2 0.1\nf 1 2 3\nf 2 4 3\n");
+  }
+  EXPECT_EQ(drape(folder, "import '{frame}.obj' --up y -o motion.drape").code, 0);
+  const Finished drawn = drape(folder, "render motion.drape --set 'video.size=[64, 48]' -o a.png");
+  EXPECT_EQ(drawn.code, 0) << drawn.text;
+  EXPECT_EQ(drawn.text.find("looks as if"), std::string::npos) << drawn.text;
+}
+
 TEST(Import, IsFoundByTheAuditToHaveTheFaultsThatWerePutIntoIt) {
   const SceneFolder folder;
   write_sequence(folder, [](Vertices& x) {  // a corner through the middle, for one frame

@@ -107,6 +107,24 @@ TEST(Pages, AreAllListed) {
   }
 }
 
+// The page and its summary are made by script/validation-page.
+TEST(Pages, ShowEveryCaseWithAKnownAnswer) {
+  const std::string page = test::content(source / "docs/notes/validation.md");
+  std::size_t cases = 0;
+  for (const auto& entry : fs::directory_iterator(source / "scenes/validation")) {
+    if (!fs::exists(entry.path() / "case.json")) continue;
+    const std::string name = entry.path().filename().string();
+    EXPECT_NE(page.find("](../images/validation/" + name + ".svg)"), std::string::npos) << name;
+    ++cases;
+  }
+  const std::string summary = test::content(source / "docs/images/validation/summary.svg");
+  const std::size_t first = summary.find("class=\"series s0\""), last = summary.find("class=\"series s1\"");
+  ASSERT_LT(first, last);
+  std::size_t points = 0;
+  for (std::size_t at = first; (at = summary.find("class=\"point\"", at)) < last; ++at) ++points;
+  EXPECT_EQ(points, cases) << "of the scenes as they are";
+}
+
 TEST(Pages, HaveAtMost25000WordsInAll) {
   std::size_t words = 0;
   for (const fs::path& page : test::pages_of(source)) {

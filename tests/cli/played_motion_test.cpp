@@ -87,6 +87,22 @@ TEST(PlayedMotion, IsGoldenUntilAVertexMoves) {
   EXPECT_EQ(drape(folder, "check look.toml").code, 0);
 }
 
+TEST(PlayedMotion, IsGoldenInEveryFrame) {
+  const SceneFolder folder;
+  write_sequence(folder, "m", as_they_are());
+  folder.write("look.toml", scene);
+  EXPECT_EQ(drape(folder, "bless look.toml").code, 0);
+  for (int frame = 0; frame < 10; ++frame) {
+    const std::string file = fmt::format("m/{:02}.obj", frame), before = test::content(folder.path(file));
+    folder.write(file, "v -1 -1 0.3" + before.substr(before.find('\n')));
+    const Finished changed = drape(folder, "check look.toml --update none");
+    EXPECT_EQ(changed.code, 1) << frame << ": " << changed.text;
+    EXPECT_NE(changed.text.find("at vertex 0"), std::string::npos) << changed.text;
+    folder.write(file, before);
+  }
+  EXPECT_EQ(drape(folder, "check look.toml").code, 0);
+}
+
 TEST(PlayedMotion, NeedsNoScene) {
   const SceneFolder folder;
   write_sequence(folder, "m", as_they_are());

@@ -85,6 +85,35 @@ TEST(Validation, HasFewerThan400RunsAndDefaultsWithoutAKeyAboutHow) {
   }
 }
 
+/// Cases of bending, free flight, air and contact with one diagonal, alternating ones, both, and on an irregular mesh.
+class OnAnyMesh : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(, OnAnyMesh,
+                         testing::Values("bending-length", "heavy-cantilever", "clamped-plate", "free-flight",
+                                         "terminal-velocity", "incline", "restitution", "stick-slip", "turntable",
+                                         "capstan"),
+                         [](const auto& tested) {
+                           std::string name = tested.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST_P(OnAnyMesh, IsTheAnswerTheSame) {
+  ValidationStudy study = plan_validation({.cases = {GetParam()}});
+  std::erase_if(study.runs, [](const ValidationRun& run) { return run.factor != "mesh"; });
+  ASSERT_EQ(study.runs.size() % 3, 0U) << "three meshes beside the scene's own";
+  ASSERT_FALSE(study.runs.empty());
+  EXPECT_EQ(study.runs.back().setting, "irregular");
+  Progress progress;
+  ASSERT_TRUE(measure_validation(study, {.patience = 1000}, {}, progress, [] {}));
+  for (const ValidationRun& run : study.runs) {
+    for (const KnownAnswer& answer : study.cases.front().problem(run.problem).answers) {
+      const std::optional<double> value = run.value(answer.name);
+      ASSERT_TRUE(value) << run.setting << ": " << run.failure;
+      EXPECT_LE(in_tolerances(answer, *value), 1) << run.setting << ' ' << answer.name << ' ' << *value;
+    }
+  }
+}
+
 TEST(Validation, AMethodAloneIsVaried) {
   const ValidationStudy study = plan_validation({.cases = {"pendulum"}, .methods = {"semi-implicit"}});
   int varied = 0;
