@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <tuple>
@@ -37,6 +38,24 @@ std::vector<std::array<bool, 3>> boundary_edges(const std::vector<Triangle>& tri
     }
   }
   return boundary;
+}
+
+/// Returns for each texture coordinate whether the texture repeats: some coordinate lies outside 0 to 1, or one vertex
+/// is at both ends of the texture, as on the seam of a tube.
+/// @param uvs per triangle corner
+std::array<bool, 2> repeats(std::span<const Triangle> triangles, std::span<const std::array<float, 2>> uvs) {
+  constexpr float slack = 1e-4F;
+  std::array<bool, 2> repeating{};
+  std::map<int, std::array<float, 2>> known;
+  for (std::size_t i = 0; i < uvs.size(); ++i) {
+    const std::array<float, 2>& first = known.try_emplace(triangles[i / 3][i % 3], uvs[i]).first->second;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const float here = uvs[i][axis];
+      const bool around = std::abs(here - first[axis]) >= 1 - slack;
+      repeating[axis] = repeating[axis] || here < -slack || here > 1 + slack || around;
+    }
+  }
+  return repeating;
 }
 
 }  // namespace
@@ -79,21 +98,20 @@ void DrawCloth::shape(const Frame& frame) {
 void DrawCloth::paint(const ClothLook& look, const std::vector<std::array<float, 2>>& uvs) {
   Painted& cloth =
       painted_.emplace_back(Painted{.first_triangle = look.first_triangle, .color = look.color, .texture = {}});
+  const auto next = std::ranges::find_if(
+      look_.cloths, [&](const ClothLook& other) { return other.first_triangle > look.first_triangle; });
+  const auto first = static_cast<std::size_t>(look.first_triangle);
+  const auto last = next == look_.cloths.end() ? triangles_.size() : static_cast<std::size_t>(next->first_triangle);
+  const std::span own = std::span(uvs).subspan(uvs.empty() ? 0 : 3 * first, uvs.empty() ? 0 : 3 * (last - first));
   if (look_.cloths.size() > 1 && !uvs.empty()) {
-    const auto next = std::ranges::find_if(
-        look_.cloths, [&](const ClothLook& other) { return other.first_triangle > look.first_triangle; });
-    const auto last = next == look_.cloths.end() ? triangles_.size() : static_cast<std::size_t>(next->first_triangle);
-    const std::span all(uvs);
-    const std::size_t first = 3 * static_cast<std::size_t>(look.first_triangle);
-    cloth.woven = std::ranges::any_of(all.subspan(first, 3 * last - first),
-                                      [](const std::array<float, 2>& uv) { return uv[0] != 0 || uv[1] != 0; });
+    cloth.woven = std::ranges::any_of(own, [](const std::array<float, 2>& uv) { return uv[0] != 0 || uv[1] != 0; });
   }
   if (look.texture.empty()) return;
   if (uvs.empty()) {
     throw UsageError(fmt::format("the texture {} cannot be put on a cloth whose mesh has no texture coordinates",
                                  shown(look.texture)));
   }
-  cloth.texture = load_texture(look.texture);
+  cloth.texture = load_texture(look.texture, repeats(std::span(triangles_).subspan(first, last - first), own));
 }
 
 std::size_t DrawCloth::painted_at(int triangle) const {
@@ -101,7 +119,7 @@ std::size_t DrawCloth::painted_at(int triangle) const {
   return static_cast<std::size_t>(after - painted_.begin()) - 1;
 }
 
-Texture DrawCloth::load_texture(const std::filesystem::path& file) const {
+Texture DrawCloth::load_texture(const std::filesystem::path& file, const std::array<bool, 2>& repeating) const {
   GLint largest = 0;
   gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   const std::vector<TextureLevel> levels = load_texture_image(file, largest);
@@ -114,6 +132,9 @@ Texture DrawCloth::load_texture(const std::filesystem::path& file) const {
   }
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  // At the cloth's border a filter that repeated the texture would mix in the colour of the opposite border.
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, repeating[0] ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, repeating[1] ? GL_REPEAT : GL_CLAMP_TO_EDGE);
   if (look_.anisotropy > 1) {
     gl_.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY,
                       static_cast<float>(std::min(max_anisotropy(gl_), look_.anisotropy)));

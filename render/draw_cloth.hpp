@@ -94,7 +94,8 @@ class DrawCloth {
   };
 
   void paint(const ClothLook& look, const std::vector<std::array<float, 2>>& uvs);
-  [[nodiscard]] Texture load_texture(const std::filesystem::path& file) const;
+  /// @param repeating per texture coordinate: true if the texture repeats, false if it ends at 0 and 1
+  [[nodiscard]] Texture load_texture(const std::filesystem::path& file, const std::array<bool, 2>& repeating) const;
   /// Returns the number of the cloth that a triangle of the mesh belongs to.
   [[nodiscard]] std::size_t painted_at(int triangle) const;
   void make_corners(const std::vector<std::array<float, 2>>& uvs);

@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -130,6 +131,58 @@ TEST(Texture, ThatIsAPipeIsRefusedAndNotWaitedFor) {
   std::filesystem::remove(pipe.path());
   ASSERT_EQ(mkfifo(pipe.path().c_str(), 0600), 0);
   EXPECT_NE(message_of(pipe.path()).find("a pipe cannot be read twice"), std::string::npos);
+}
+
+/// Draws a cloth that fills most of the picture.
+Image draw_textured(Mesh mesh, const std::vector<std::string>& rows) {
+  const TemporaryFile file("rows.ppm", ppm(rows));
+  Look look;
+  look.texture = file.path();
+  look.thickness = 0.1;
+  mesh.positions *= 0.8;
+  return draw(mesh, from_above(), look, {160, 160});
+}
+
+// Textures that are equal on a half draw that half alike, with its hem, whatever is on the other half.
+TEST(Texture, TheHemTakesNoColorFromTheOppositeBorder) {
+  const Mesh grid = make_grid(6, 6);
+  const Image plain = draw_textured(grid, {"....", "....", "....", "...."});
+  const Image left = draw_textured(grid, {"#...", "#...", "#...", "#..."});
+  const Image top = draw_textured(grid, {"####", "....", "....", "...."});
+  int dark = 0;
+  for (int y = 0; y < 160; ++y) {
+    for (int x = 80; x < 160; ++x) {
+      ASSERT_EQ(left.at(x, y)[1], plain.at(x, y)[1]) << x << ", " << y;
+      ASSERT_EQ(top.at(y, x)[1], plain.at(y, x)[1]) << y << ", " << x;
+      dark += left.at(159 - x, y)[1] < 100 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(dark, 1000);
+}
+
+TEST(Texture, RepeatsBeyondItsBorders) {
+  Mesh twice = make_grid(6, 6);
+  for (std::array<float, 2>& uv : twice.uvs) uv[0] *= 2;
+  const Image image = draw_textured(twice, {"#...", "#...", "#...", "#..."});
+  // Middles of the first and the last texel, left and right of the middle of the cloth: the first is black in both.
+  for (const int x : {24, 88}) EXPECT_LT(image.at(x, 80)[1], 100) << x;
+  for (const int x : {72, 136}) EXPECT_GT(image.at(x, 80)[1], 150) << x;
+}
+
+// The cloth's middle is a seam between u = 1 and u = 0. The texture's first texel is black and its last is white, so
+// the filter draws a ramp over a texel's width.
+TEST(Texture, RunsThroughTheSeamOfATube) {
+  Mesh seam = make_grid(2, 2);
+  for (std::size_t i = 0; i < seam.uvs.size(); ++i) {
+    const Triangle& t = seam.triangles[i / 3];
+    const double middle = (seam.positions(t[0], 0) + seam.positions(t[1], 0) + seam.positions(t[2], 0)) / 3;
+    seam.uvs[i][0] += middle < 0 ? 0.5F : -0.5F;
+  }
+  const Image image = draw_textured(seam, {"#...", "#...", "#...", "#..."});
+  const auto value = [&image](int x) { return int{image.at(x, 80)[1]}; };
+  EXPECT_LT(value(80), value(74) - 20);
+  EXPECT_LT(value(74), value(66) - 5);
+  EXPECT_LT(value(90), value(80) - 20);
 }
 
 TEST(Texture, NeedsTextureCoordinates) {
