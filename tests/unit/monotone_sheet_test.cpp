@@ -112,5 +112,33 @@ TEST(MonotoneSheet, ClearsOnlyStepsInWhichNothingComesNear) {
   EXPECT_LT(cleared, apart);
 }
 
+// One object over many steps clears whatever one of its own for each step clears, and nothing else.
+TEST(MonotoneSheet, ClearsNoLessInAStepThatContinuesTheLast) {
+  const Cloth cloth = sheet();
+  const Points flat = points_of(cloth);
+  test::Random random(11);
+  MonotoneSheet kept(cloth, thickness);
+  int cleared = 0;
+  Points from = flat;
+  for (int k = 0; k < 300; ++k) {
+    if (k % 30 == 0) from = flat;  // a step that begins elsewhere
+    const Eigen::AngleAxisd turn(0.2, Eigen::Vector3d(0.1, 1, 0.2).normalized());
+    Points to;
+    for (const Point& p : from) {
+      to.emplace_back(turn * p);
+      for (int axis = 0; axis < 3; ++axis) to.back()[axis] += 0.05 * random.between(-1, 1) * width / cells;
+    }
+    kept.begin(from);
+    const bool clears = kept.stays_apart(to);
+    EXPECT_GE(clears, stays_apart(cloth, from, to)) << k;
+    if (clears) {
+      ++cleared;
+      EXPECT_GT(least_distance(cloth, from, to), thickness) << k;
+    }
+    from = to;
+  }
+  EXPECT_GT(cleared, 100);
+}
+
 }  // namespace
 }  // namespace drape
