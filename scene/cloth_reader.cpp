@@ -57,9 +57,9 @@ std::string difference(const Mesh& rest, const Mesh& mesh) {
   return {};
 }
 
-/// Returns warnings about a complete cloth.
-std::vector<std::string> doubts_of(const ClothTable& table, const ClothAndUvs& result) {
-  std::vector<std::string> warnings;
+/// Adds warnings about a complete cloth.
+void add_doubts(const ClothTable& table, ClothAndUvs& result) {
+  std::vector<std::string>& warnings = result.warnings;
   if (const auto doubt = shape_of(result.cloth).doubt()) warnings.push_back(*doubt);
   const std::string* file = table.mesh->as<std::string>();  // a table may give the up axis
   const bool turned = !table.rotate.isZero(0);
@@ -69,7 +69,6 @@ std::vector<std::string> doubts_of(const ClothTable& table, const ClothAndUvs& r
                     "\"y\" }} is meant; up = \"z\" ends this hint",
                     *file));
   }
-  return warnings;
 }
 
 SelectableMesh selectable_mesh(const Mesh& mesh, const TomlValue& value, const std::filesystem::path& folder) {
@@ -97,14 +96,26 @@ bool has_both_diagonals(const ClothTable& table) {
          (table.rest == nullptr || grid_of(*table.rest));
 }
 
+/// Stiffens a cloth as a fabric on any mesh.
+/// @param warnings gets a sentence if the mesh cannot have both moduli exactly
+void stiffen_as(const Fabric& fabric, const WarpWeft& modulus, Cloth& cloth, std::vector<std::string>& warnings) {
+  try {
+    stiffen_as_woven(modulus, cloth);
+  } catch (const std::invalid_argument& error) {
+    stiffen_by_direction(modulus, cloth);
+    warnings.push_back(
+        fmt::format("{}: {}; each spring gets the modulus of its own direction", fabric.name, error.what()));
+  }
+}
+
 /// Assigns the masses and stiffnesses that the table gives by area; returns false after problems.
-bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth, Problems& problems) {
+bool give_material(const ClothTable& table, const TomlValue& value, ClothAndUvs& result, Problems& problems) {
   const auto by_area = [&](const char* key, bool one, const auto& other, auto of_fabric, const auto& give) {
     const bool asked = other || (!one && table.material != nullptr);
     if (!asked) return true;
     const char* blamed = other ? key : "material";
     try {
-      give(other.value_or(of_fabric), cloth);
+      give(other.value_or(of_fabric), result.cloth);
       return true;
     } catch (const std::invalid_argument& error) {
       problems.add(place_of(value, blamed), fmt::format("{}: {}", blamed, error.what()));
@@ -115,10 +126,11 @@ bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth
   const bool massive = by_area("density", says(value, "mass"), table.density, fabric.density, share_mass_by_area);
   const auto stiffen = [&](WarpWeft modulus, Cloth& stiffened) {
     modulus.angle = table.warp * (std::numbers::pi / 180);
-    if (!modulus.isotropic()) return stiffen_as_woven(modulus, stiffened);
+    if (!modulus.isotropic() && table.modulus) return stiffen_as_woven(modulus, stiffened);
+    if (!modulus.isotropic()) return stiffen_as(fabric, modulus, stiffened, result.warnings);
     (has_both_diagonals(table) ? stiffen_evenly : stiffen_by_area)(modulus.warp, stiffened);
   };
-  return by_area("modulus", table.stiffness.has_value(), table.modulus, WarpWeft(fabric.modulus), stiffen) && massive;
+  return by_area("modulus", table.stiffness.has_value(), table.modulus, fabric.modulus, stiffen) && massive;
 }
 
 /// Reports a mass or a stiffness that is given twice.
@@ -197,7 +209,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
                      std::move(*selectable),
                      std::move(inputs),
                      {}};
-  if (!give_material(table, value, result.cloth, problems)) return std::nullopt;
+  if (!give_material(table, value, result, problems)) return std::nullopt;
   if (table.springs == ClothTable::Springs::edges_and_bend) {
     const double stiffness = *table.stiffness;
     result.cloth.springs = springs_of_grid(grid_of(*table.mesh)->columns, result.cloth.rest,
@@ -211,7 +223,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
     problems.add(place_of(value, "mass"), "mass: too small to be shared by so many vertices");
     return std::nullopt;
   }
-  result.warnings = doubts_of(table, result);
+  add_doubts(table, result);
   return result;
 }
 

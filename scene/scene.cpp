@@ -35,6 +35,8 @@ namespace {
 constexpr double most_steps = 1e9;
 constexpr double most_frames = 1e7;
 
+double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
+
 /// Returns the effect with the direction of the warp of the cloths that it acts on, if it depends on that.
 Effect along_warp(const ReadEffect& read, const ClothList& cloths, Problems& problems) {
   const Bending* bending = read.effect.as<Bending>();
@@ -50,7 +52,7 @@ Effect along_warp(const ReadEffect& read, const ClothList& cloths, Problems& pro
                  "[[effects.bending]] of their own");
   }
   Bending turned = *bending;
-  turned.rigidity->angle = warps.front() * (std::numbers::pi / 180);
+  turned.rigidity->angle = radians(warps.front());
   return turned;
 }
 
@@ -229,7 +231,10 @@ void add_bending_of_materials(const ClothList& cloths, Effects& effects) {
       bends = bends || (bending != nullptr && (bending->cloth.empty() || bending->cloth == table.name));
     }
     const std::string only = cloths.tables.size() > 1 ? table.name : "";
-    if (!bends) added.push_back({.rigidity = table.material->rigidity, .cloth = only});
+    if (bends) continue;
+    WarpWeft rigidity = table.material->rigidity;
+    rigidity.angle = radians(table.warp);
+    added.push_back({.rigidity = rigidity, .cloth = only});
   }
   for (const Bending& bending : added) effects.add(bending);
 }

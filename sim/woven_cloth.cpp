@@ -24,6 +24,7 @@ Vector5 harmonics(double angle) {
 }
 
 /// Returns the harmonics of every spring's angle from the warp, as means over the triangles at it, weighed by area.
+/// They are zero for a spring where the warp has no direction.
 std::vector<Vector5> spring_harmonics(const Cloth& cloth, double warp_direction) {
   std::map<Edge, Vector5> sums;
   for (const Triangle& t : cloth.triangles) {
@@ -44,11 +45,7 @@ std::vector<Vector5> spring_harmonics(const Cloth& cloth, double warp_direction)
   std::vector<Vector5> result;
   for (const Spring& spring : cloth.springs) {
     const auto sum = sums.find({spring.i, spring.j});
-    if (sum == sums.end()) {
-      throw std::invalid_argument(
-          fmt::format("the warp has no direction at the edge between vertices {} and {}", spring.i, spring.j));
-    }
-    result.push_back(sum->second / sum->second[0]);
+    result.push_back(sum == sums.end() ? Vector5::Zero() : Vector5(sum->second / sum->second[0]));
   }
   return result;
 }
@@ -78,6 +75,10 @@ void stiffen_as_woven(const WarpWeft& modulus, Cloth& cloth) {
   double whole = 0;
   for (std::size_t s = 0; s < harmonics.size(); ++s) {
     const Spring& spring = cloth.springs[s];
+    if (harmonics[s].isZero(0)) {
+      throw std::invalid_argument(
+          fmt::format("the warp has no direction at the edge between vertices {} and {}", spring.i, spring.j));
+    }
     const double area = spring.stiffness * spring.rest_length * spring.rest_length;
     means += area * harmonics[s] * harmonics[s].transpose();
     whole += area;
@@ -108,6 +109,17 @@ void stiffen_as_woven(const WarpWeft& modulus, Cloth& cloth) {
           modulus.warp, modulus.weft, cloth.springs[s].i, cloth.springs[s].j));
     }
     cloth.springs[s].stiffness *= share;
+  }
+}
+
+void stiffen_by_direction(const WarpWeft& modulus, Cloth& cloth) {
+  stiffen_by_area(1, cloth);
+  const std::vector<Vector5> harmonics = spring_harmonics(cloth, modulus.angle);
+  for (std::size_t s = 0; s < harmonics.size(); ++s) {
+    const double along = (1 + harmonics[s][1]) / 2;  // cos²θ
+    const double compliance = along / std::sqrt(modulus.warp) + (1 - along) / std::sqrt(modulus.weft);
+    const bool directed = !harmonics[s].isZero(0);
+    cloth.springs[s].stiffness *= directed ? 1 / (compliance * compliance) : std::sqrt(modulus.warp * modulus.weft);
   }
 }
 

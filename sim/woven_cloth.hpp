@@ -29,4 +29,10 @@ std::optional<double> warp_angle(const Cloth& cloth, const Triangle& triangle, d
 /// @throws std::invalid_argument with a sentence, if the mesh's edges cannot have this C, or a spring would push
 void stiffen_as_woven(const WarpWeft& modulus, Cloth& cloth);
 
+/// Gives every spring the stiffness E(θ)·A/l² with the E(θ) of stiffen_as_woven(), or √(E₁E₂) if the warp has no
+/// direction there. It fits every mesh, as stiffen_by_area() does. A grid with one diagonal has E₁ and E₂ along its
+/// sides while shear is free; between the directions of its edges a mesh with few of them deviates.
+/// @throws std::invalid_argument if a spring has no triangle with an area
+void stiffen_by_direction(const WarpWeft& modulus, Cloth& cloth);
+
 }  // namespace drape

@@ -166,14 +166,17 @@ void bend_at_rest(CurvatureElement& element, const PlacedTriangle& t, const Rest
 std::vector<CurvatureElement> curvature_elements(const Cloth& cloth, const WarpWeft& rigidity) {
   const RestSurface surface(cloth);
   std::vector<CurvatureElement> elements;
+  // The rigidity in all directions where the warp has none.
+  const double mean = rigidity.isotropic() ? rigidity.warp : std::sqrt(rigidity.warp * rigidity.weft);
   for (int t = 0; t < surface.triangle_count(); ++t) {
     if (!surface.bends(t)) continue;
     const PlacedTriangle placed = surface.lay_out(t);
     SecondDerivatives derivatives(surface, placed);
-    if (!rigidity.isotropic())
-      derivatives.transform(weave(rigidity, warp_angle(cloth, surface.triangle(t), rigidity.angle).value_or(0)));
+    std::optional<double> warp;
+    if (!rigidity.isotropic()) warp = warp_angle(cloth, surface.triangle(t), rigidity.angle);
+    if (warp) derivatives.transform(weave(rigidity, *warp));
     CurvatureElement element = derivatives.element();
-    element.weights *= std::sqrt(rigidity.isotropic() ? rigidity.warp * derivatives.area() : derivatives.area());
+    element.weights *= std::sqrt(warp ? derivatives.area() : mean * derivatives.area());
     bend_at_rest(element, placed, surface);
     elements.push_back(std::move(element));
   }

@@ -48,6 +48,7 @@ struct CurvatureElement {
 /// A woven cloth has ½ ∫ ‖Q (S − S₀) Q‖² dA, where Q has the eigenvalues D₁^¼ along the warp and D₂^¼ along the weft.
 /// The rigidity is D₁ for curvature along the warp, D₂ along the weft, √(D₁D₂) for twist, and for a sheet rolled at an
 /// angle θ from the warp √D(θ) = cos²θ √D₁ + sin²θ √D₂ (Huber 1923).
+/// A triangle where the warp has no direction has the rigidity √(D₁D₂).
 /// @param rigidity D, or D₁ and D₂, positive [N·m]
 std::vector<CurvatureElement> curvature_elements(const Cloth& cloth, const WarpWeft& rigidity);
 

@@ -8,6 +8,7 @@
 
 #include "drape/sim/effects/field.hpp"
 #include "drape/sim/schemes/method_choice.hpp"
+#include "sim/woven_cloth.hpp"
 #include "tests/contact/contact_setup.hpp"
 
 namespace drape::test {
@@ -64,7 +65,7 @@ TEST(DefaultContact, GivesFabricsNoEnergyOnAnyObstacle) {
     for (const bool itself : {false, true}) {
       SimulationSettings settings{.cloth = make_cloth(start, start, 1, 1, {}), .step = 0.01};
       share_mass_by_area(material->density, settings.cloth);
-      stiffen_by_area(material->modulus, settings.cloth);
+      stiffen_by_direction(material->modulus, settings.cloth);
       settings.effects = {Gravity{}, Bending{.rigidity = material->rigidity}, Ground{},
                           Body{.box = Eigen::Vector3d(0.5, 0.5, 0.4), .center = Eigen::Vector3d(0.1, 0, 0.2)}};
       if (itself) settings.effects.add(SelfCollision{});

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/woven_cloth.hpp"
 #include "tests/contact/contact_setup.hpp"
 #include "tests/support/audited_run.hpp"
 #include "tests/support/random.hpp"
@@ -151,7 +152,7 @@ SimulationSettings make(const Trial& run) {
     const Fabric& fabric = measured_fabrics()[run.material()];
     settings.cloth = make_cloth(start, rest, 1, 1, {});
     share_mass_by_area(fabric.density, settings.cloth);
-    stiffen_by_area(fabric.modulus, settings.cloth);
+    stiffen_by_direction(fabric.modulus, settings.cloth);
     settings.effects.add(Bending{.rigidity = fabric.rigidity});
   } else {
     settings.cloth = make_cloth(start, rest, 0.2, stiffnesses[run.material() - measured_fabrics().size()], {});

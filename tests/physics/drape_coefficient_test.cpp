@@ -10,6 +10,7 @@
 #include "drape/sim/cloth.hpp"
 #include "drape/sim/effects/bending.hpp"
 #include "drape/sim/simulation.hpp"
+#include "sim/woven_cloth.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
 
@@ -79,7 +80,7 @@ double drape_coefficient(const Fabric& fabric, double cell, int seed) {
   }
   Cloth cloth = test::cloth_of(flat, 1, 1, held);
   share_mass_by_area(fabric.density, cloth);
-  stiffen_by_area(fabric.modulus, cloth);
+  stiffen_by_direction(fabric.modulus, cloth);
   // Perturbed like a real disc: a wave of every number of folds, of a tenth of a millimetre.
   test::Random random(static_cast<std::uint64_t>(seed));
   std::vector<double> phases;

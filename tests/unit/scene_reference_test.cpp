@@ -36,10 +36,15 @@ TEST(SceneReference, ThePageHasTheProgramsOwnDescriptionOfItsKeys) { expect_page
 /// Returns the page's table of fabrics.
 std::string fabrics_table() {
   std::string text =
-      "| `material` | sample | density, kg/m² | modulus, N/m | rigidity, N·m | source |\n|---|---|---|---|---|---|\n";
+      "| `material` | sample | density, kg/m² | modulus E₁, E₂, N/m | rigidity D₁, D₂, N·m | source |\n"
+      "|---|---|---|---|---|---|\n";
+  const auto both = [](const WarpWeft& value, double unit, const char* suffix) {
+    std::string shown = fmt::format("{:g}{}", value.warp / unit, suffix);
+    return value.isotropic() ? shown : shown + fmt::format(", {:g}{}", value.weft / unit, suffix);
+  };
   for (const Fabric& f : fabrics()) {
-    text += fmt::format("| `\"{}\"` | {} | {} | {} | {:g}e-6 | {} |\n", f.name, f.sample, f.density, f.modulus,
-                        1e6 * f.rigidity, f.measured ? "Wang et al. 2011" : "estimate");
+    text += fmt::format("| `\"{}\"` | {} | {} | {} | {} | {} |\n", f.name, f.sample, f.density, both(f.modulus, 1, ""),
+                        both(f.rigidity, 1e-6, "e-6"), f.measured ? "Wang et al. 2011" : "estimate");
   }
   return text + "\n";
 }
@@ -47,7 +52,10 @@ std::string fabrics_table() {
 TEST(SceneReference, ThePageHasEveryFabric) {
   expect_page("fabrics", fabrics_table());
   EXPECT_TRUE(std::ranges::is_sorted(fabrics(), {}, &Fabric::name));
-  for (const Fabric& f : fabrics()) EXPECT_TRUE(f.density > 0 && f.modulus > 0 && f.rigidity > 0) << f.name;
+  for (const Fabric& f : fabrics()) {
+    EXPECT_TRUE(f.density > 0 && f.modulus.warp > 0 && f.modulus.weft > 0) << f.name;
+    EXPECT_TRUE(f.rigidity.warp > 0 && f.rigidity.weft > 0) << f.name;
+  }
 }
 
 TEST(SceneReference, EveryKeyAndEffectHasARow) {

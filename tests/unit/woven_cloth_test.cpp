@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 #include "drape/sim/mesh.hpp"
 #include "sim/bending/bending_energy.hpp"
@@ -116,6 +117,33 @@ TEST(WovenCloth, RefusesWhatSpringsCannotRepresent) {
   EXPECT_EQ(refused(upright, 90, {900, 300}), "");
 }
 
+// Cotton on a grid with one diagonal has E along the sides while shear is free: a fabric has E₁ and E₂ there.
+TEST(WovenCloth, ByDirectionHasItsModuliAlongTheSidesOfAnyGrid) {
+  for (const auto& [degrees, along, across] : {std::tuple{0.0, 900.0, 50.0}, {90.0, 50.0, 900.0}}) {
+    Cloth cloth = cloth_of(grid(GridPattern::diagonal), 1, 1, {});
+    stiffen_by_direction({900, 50, degrees * degree}, cloth);
+    EXPECT_NEAR(modulus_along(cloth, 0), along, 1e-9 * along);
+    EXPECT_NEAR(modulus_along(cloth, 90 * degree), across, 1e-9 * across);
+  }
+}
+
+TEST(WovenCloth, ByDirectionIsThatOfItsAreasWithOneModulus) {
+  const auto expect = [](const Mesh& mesh, const WarpWeft& modulus, double mean) {
+    Cloth cloth = cloth_of(mesh, 1, 1, {}), even = cloth;
+    stiffen_by_direction(modulus, cloth);
+    stiffen_by_area(mean, even);
+    for (std::size_t i = 0; i < cloth.springs.size(); ++i) {
+      EXPECT_NEAR(cloth.springs[i].stiffness, even.springs[i].stiffness, 1e-9 * even.springs[i].stiffness);
+    }
+  };
+  expect(delaunay(), 500, 500);
+  // The warp has no direction in a sheet that is perpendicular to it.
+  Mesh upright = grid(GridPattern::x);
+  upright.positions.col(2) = upright.positions.col(0).eval();
+  upright.positions.col(0).setZero();
+  expect(upright, {900, 400}, 600);
+}
+
 /// Rolls the plane onto a cylinder of radius R; the roll runs at an angle to the x axis.
 Vertices rolled(const Vertices& flat, double radius, double angle) {
   Vertices x = flat;
@@ -146,6 +174,20 @@ TEST(WovenCloth, StoresTheEnergyOfItsRigidityWhenItIsRolledInAnyDirection) {
     }
     EXPECT_NEAR(2 * ratios[1] - ratios[0], 1, 0.01) << angle;
   }
+}
+
+TEST(WovenCloth, HasTheMeanRigidityWhereTheWarpHasNoDirection) {
+  const Mesh flat = irregular_mesh(8);
+  const auto energy = [&](const WarpWeft& rigidity) {
+    Mesh upright = flat;
+    upright.positions.col(2) = upright.positions.col(0).eval();
+    upright.positions.col(0).setZero();
+    const Cloth cloth = cloth_of(upright, 1, 1, {});
+    Vertices ignored = Vertices::Zero(cloth.vertex_count(), 3);
+    return BendingEnergy(curvature_elements(cloth, rigidity), cloth.vertex_count())
+        .add_gradient(rolled(flat.positions, 3, 0.4), 0, ignored);
+  };
+  EXPECT_NEAR(energy({0.9, 0.4}), energy(0.6), 1e-12 * energy(0.6));
 }
 
 // A curved rest shape is at rest, too.

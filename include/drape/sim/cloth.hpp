@@ -11,7 +11,7 @@
 //   drape::append("napkin", cloth, both);
 
 // Example:
-//   for (const drape::Fabric& fabric : drape::fabrics()) std::printf("%g kg/m2", fabric.density);
+//   for (const drape::Fabric& fabric : drape::fabrics()) std::printf("%g N/m", fabric.modulus.warp);
 
 #include <Eigen/Core>
 #include <array>
@@ -20,6 +20,7 @@
 #include <string_view>
 #include <vector>
 
+#include "drape/core/warp_weft.hpp"
 #include "drape/sim/mesh.hpp"
 
 namespace drape {
@@ -112,21 +113,23 @@ void share_mass_by_area(double density, Cloth& cloth);
 /// @throws std::invalid_argument if a spring has no triangle with an area
 void stiffen_by_area(double modulus, Cloth& cloth);
 
-/// A fabric, as represented by a cloth with one density, modulus and rigidity in all directions.
+/// A fabric, as represented by a cloth with one density, and a modulus and a rigidity along its warp and its weft.
 ///
 /// Most are measured by Wang, O'Brien and Ramamoorthi 2011, "Data-Driven Elastic Models for Cloth: Modeling and
-/// Measurement", whose tables of ten fabrics come with ARCSim. Those are anisotropic and change with strain; these
-/// values hold for small strains. The modulus is the geometric mean of weft and warp, E = 2√(c₁₁·c₂₂) (their energy is
-/// ½·2c·ε²). The rigidity is the mean over directions at the least curvature measured, D = (B₀ + 2·B₄₅ + B₉₀)/4.
+/// Measurement", whose tables of ten fabrics come with ARCSim. They change with strain; these values hold for small
+/// strains. Their energy is ½·2c₁₁·ε₁² + ½·2c₂₂·ε₂² + …, with axis 1 along the weft and axis 2 along the warp. So the
+/// moduli are E₁ = 2c₂₂ and E₂ = 2c₁₁, from the row for no strain. A row of bending is for folds at 0°, 45° or 90° from
+/// axis 1. The rigidities at the least curvature measured are D₁ = B₀, whose folds are across the warp, and D₂ = B₉₀.
 ///
-/// The everyday fabrics are estimates without a measured sample. Canvas, cotton, silk and wool stretch by 1, 2, 3 and 4
-/// % at 98 N/m. Paper follows from its thickness and Young's modulus. docs/reference/scene-format.md lists the sources.
+/// The everyday fabrics are estimates without a measured sample, and isotropic. Canvas, cotton, silk and wool stretch
+/// by 1, 2, 3 and 4 % at 98 N/m. Paper follows from its thickness and Young's modulus. docs/reference/scene-format.md
+/// lists the sources.
 struct Fabric {
   std::string_view name;    ///< name in scenes
   std::string_view sample;  ///< name in the paper
   double density;           ///< [kg/m²]
-  double modulus;           ///< E, force per width and strain [N/m]
-  double rigidity;          ///< D, bending rigidity [N·m]
+  WarpWeft modulus;         ///< E₁ and E₂, force per width and strain [N/m]
+  WarpWeft rigidity;        ///< D₁ and D₂, bending rigidity when rolled along the warp and along the weft [N·m]
   bool measured = true;     ///< false: an estimate
 };
 
