@@ -44,8 +44,8 @@ Vertices at_rest(const std::string& cloth, double length, double weight) {
 /// @param warp angle between the strip and its warp [degrees]
 double pulled(const Fabric& fabric, double warp) {
   constexpr int columns = 16, rows = 6 * columns;
-  // So short that its own weight stretches it by a thousandth.
-  const double length = 1e-3 * std::min(fabric.modulus.warp, fabric.modulus.weft) / (fabric.density * g);
+  // So short that its own weight stretches it by up to a hundredth.
+  const double length = 1e-2 * std::min(fabric.modulus.warp, fabric.modulus.weft) / (fabric.density * g);
   const double cell = length / rows;
   const std::string cloth = fmt::format(
       "[cloth]\nmesh = {{ grid = [{}, {}], size = [{}, {}], pattern = \"alternating\" }}\nmaterial = \"{}\"\n"
