@@ -119,10 +119,14 @@ std::string method_text(const Scene& scene) {
   if (!scene.choice) return text;
   const MethodChoice& choice = *scene.choice;
   if (choice.only) return text + fmt::format(" (auto, as {})", choice.reason);
-  const bool verlet = choice.method == Method::verlet;
-  const double other = verlet ? choice.quasi_newton / choice.verlet : choice.verlet / choice.quasi_newton;
-  return text + fmt::format(" (auto, as {}: {} would take about {:.2g} times as long)", choice.reason,
-                            verlet ? "quasi-newton" : "verlet", other);
+  if (choice.method != Method::verlet) {
+    return text + fmt::format(" (auto, as {}: verlet would take about {:.2g} times as long)", choice.reason,
+                              choice.verlet / choice.quasi_newton);
+  }
+  const double longer = choice.quasi_newton / choice.verlet, apart = choice.apart / choice.verlet;
+  text += fmt::format(" (auto, as {}: quasi-newton would take about {:.2g} times as long", choice.reason, longer);
+  constexpr double notable = 1.5;
+  return text + (longer > notable * apart ? fmt::format(", and {:.2g} while it touches nothing)", apart) : ")");
 }
 
 }  // namespace

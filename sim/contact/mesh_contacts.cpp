@@ -223,6 +223,7 @@ BodyContacts::BodyContacts(std::shared_ptr<const MovingBody> body, const Contact
       start_feet_(feet_) {
   x_.resize(static_cast<Index>(cloth_count_) + end_.mesh->points().size());
   target_ = x_;
+  copy_shape();
   if (!terms.separate) return;
   std::vector<Triangle> triangles = numbered_after(cloth_count_, body_->topology().triangles);
   entanglement_.emplace(std::vector{cloth.triangles, std::move(triangles)}, x_.size(), cloth.pins);
@@ -236,9 +237,13 @@ void BodyContacts::begin(const Vertices& x, double start, double end) {
   start_ = body_->at(start);
   end_ = body_->at(end);
   for (int i = 0; i < cloth_count_; ++i) x_[Index(i)] = start_.pose.in(x.row(i).transpose());
+  if (body_->deforms()) copy_shape();
+  if (entanglement_) find_astray();
+}
+
+void BodyContacts::copy_shape() {
   std::ranges::copy(start_.mesh->points(), x_.begin() + cloth_count_);
   std::ranges::copy(end_.mesh->points(), target_.begin() + cloth_count_);
-  if (entanglement_) find_astray();
 }
 
 void BodyContacts::find_astray() {

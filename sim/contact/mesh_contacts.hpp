@@ -185,6 +185,8 @@ class BodyContacts final : public ContactSource {
   void find_vertices(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
                      std::vector<ContactConstraint>& contacts);
   void find_pairs(int source, const std::vector<ContactConstraint>& held, std::vector<ContactConstraint>& contacts);
+  /// Copies the shape at the start and end of the step, in the body's own coordinates.
+  void copy_shape();
   /// Finds the features that begin the step on the wrong side of the body.
   void find_astray();
   /// Finds edges of the cloth that pass through a solid while both of their ends are outside.

@@ -1,6 +1,7 @@
 #include "drape/sim/effects/wind.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -54,9 +55,10 @@ class AirForce final : public Force {
 
   void add(const State& state, double time, Vertices& force) const override {
     for_ranges(threads_, slip_.rows(), [&](Eigen::Index first, Eigen::Index count) {
+      Gusts::Cell cell;
       for (Eigen::Index i = first; i < first + count; ++i) {
         Eigen::Vector3d wind = values_.velocity;
-        if (values_.gusts.speed > 0) wind += gusts_.at(state.x.row(i).transpose(), time);
+        if (values_.gusts.speed > 0) wind += gusts_.at(state.x.row(i).transpose(), time, cell);
         slip_.row(i) = wind.transpose() - state.v.row(i);
       }
     });
@@ -174,7 +176,7 @@ void GustValues::describe(Keys& keys) {
   keys.add("seed", &seed, "", "Different numbers give different gusts.");
 }
 
-Eigen::Vector3d Gusts::at(const Eigen::Vector3d& place, double time) const {
+Eigen::Vector3d Gusts::at(const Eigen::Vector3d& place, double time, Cell& last) const {
   const Eigen::Vector3d carried = (place - time * wind_) / values_.size;
   const std::array<double, 4> point{carried[0], carried[1], carried[2], time / values_.duration};
   std::array<double, 4> weight{};
@@ -184,21 +186,32 @@ Eigen::Vector3d Gusts::at(const Eigen::Vector3d& place, double time) const {
     cell[d] = static_cast<std::int64_t>(below);
     weight[d] = s * s * (3 - 2 * s);
   }
-  // Corners of the lattice cell: each dimension splits the previous corners into lower and upper ones.
-  std::array<std::uint64_t, 16> bits{mixed(static_cast<std::uint64_t>(values_.seed))};
+  if (!last.known || cell != last.place) last = cell_at(cell);
   std::array<double, 16> share{1};
   for (std::size_t d = 0, corners = 1; d < 4; ++d, corners *= 2) {
-    const std::uint64_t lower = static_cast<std::uint64_t>(cell[d]) * odd;
     for (std::size_t k = 0; k < corners; ++k) {
-      bits[k + corners] = mixed(bits[k] + lower + odd);
-      bits[k] = mixed(bits[k] + lower);
       share[k + corners] = share[k] * weight[d];
       share[k] *= 1 - weight[d];
     }
   }
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < bits.size(); ++k) sum += share[k] * random_vector(bits[k]);
+  for (std::size_t k = 0; k < share.size(); ++k) sum += share[k] * last.corners[k];
   return values_.speed * sum;
+}
+
+Gusts::Cell Gusts::cell_at(const std::array<std::int64_t, 4>& place) const {
+  // Each dimension splits the previous corners into lower and upper ones.
+  std::array<std::uint64_t, 16> bits{mixed(static_cast<std::uint64_t>(values_.seed))};
+  for (std::size_t d = 0, corners = 1; d < 4; ++d, corners *= 2) {
+    const std::uint64_t lower = static_cast<std::uint64_t>(place[d]) * odd;
+    for (std::size_t k = 0; k < corners; ++k) {
+      bits[k + corners] = mixed(bits[k] + lower + odd);
+      bits[k] = mixed(bits[k] + lower);
+    }
+  }
+  Cell cell{.place = place, .corners = {}, .known = true};
+  std::ranges::transform(bits, cell.corners.begin(), random_vector);
+  return cell;
 }
 
 }  // namespace drape

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double epsilon = 2.0 / 13;  // keeps the polynomial below 1 inside the interval
 constexpr int fewest_stages = 2, most_stages = 1000;
-constexpr std::int64_t substeps_of_a_kick = 8;
+constexpr std::int64_t most_substeps_of_a_kick = 24;
 
 /// Coefficients of the method with s stages.
 struct Chebyshev {
@@ -65,7 +65,7 @@ DampingKick::DampingKick(const System& system, double duration)
 }
 
 std::int64_t DampingKick::kicks_in(std::int64_t substeps) {
-  const std::int64_t kicks = (substeps + substeps_of_a_kick - 1) / substeps_of_a_kick;
+  const std::int64_t kicks = (substeps + most_substeps_of_a_kick - 1) / most_substeps_of_a_kick;
   // An odd number has one in the middle of the step, so that the number of substeps must be odd, too.
   return substeps % 2 == 0 && kicks % 2 == 1 ? kicks + 1 : kicks;
 }

@@ -21,8 +21,8 @@ namespace drape {
 /// step. With x' = x + h u' and u' = √D (√D u − h M⁻¹K x) an eigenvector satisfies λ² a − λ (a + d − h²κ) + d = 0 with
 /// a = x·D⁻¹x, d = x·D x, κ = x·Kx in that inner product. As a + d ≥ 2 x·x and d ≤ a, no |λ| exceeds 1 if h²κ ≤ 4 x·x.
 ///
-/// A step that is divided into substeps has a kick of the dashpots in about every eighth of them, for as long as these
-/// last: stages grow with the square root of the duration. They lie symmetrically in the step, so the order remains 2.
+/// A step that is divided into substeps has a kick of the dashpots for up to 24 of them, since stages grow with the
+/// square root of the duration only. Kicks lie symmetrically in the step, so the order remains 2.
 class DampingKick {
  public:
   /// @param duration t [s]

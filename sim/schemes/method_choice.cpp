@@ -49,7 +49,8 @@ bool touches(const SimulationSettings& settings) {
 
 }  // namespace
 
-double estimated_step(const SimulationSettings& settings, Method method, double substeps, double stiffness) {
+double estimated_step(const SimulationSettings& settings, Method method, double substeps, double stiffness,
+                      bool in_contact) {
   const auto springs = static_cast<double>(settings.cloth.springs.size());
   const auto vertices = static_cast<double>(settings.cloth.vertex_count());
   double evaluated = 0, solved = 0;
@@ -59,7 +60,8 @@ double estimated_step(const SimulationSettings& settings, Method method, double 
   }
   if (is_explicit(method)) return substeps * (substep + springs * spring_of_substep + vertices * evaluated);
   const double iterations = std::min(most_iterations, 1 + iterations_per_substep * stiffness);
-  const double factored = touches(settings) && method != Method::liu13 ? iterations_in_contact * factor_of_vertex : 0;
+  const bool factors = in_contact && touches(settings) && method != Method::liu13;
+  const double factored = factors ? iterations_in_contact * factor_of_vertex : 0;
   return substep + springs * spring_of_iteration * iterations + vertices * (solved + factored * std::sqrt(vertices));
 }
 
@@ -74,6 +76,7 @@ MethodChoice choose_method(const SimulationSettings& settings) {
   choice.substeps = settings.integrator.substeps.value_or(static_cast<int>(fewest));
   choice.verlet = estimated_step(settings, Method::verlet, choice.substeps, ratio);
   choice.quasi_newton = steps_of_backward_euler * estimated_step(settings, Method::quasi_newton, 1, ratio);
+  choice.apart = steps_of_backward_euler * estimated_step(settings, Method::quasi_newton, 1, ratio, false);
   if (!(ratio <= most_substeps)) {
     choice.only = true;
     choice.reason = "springs are too stiff for short steps";
