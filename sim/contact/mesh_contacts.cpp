@@ -160,13 +160,17 @@ void SelfContacts::find(const Vertices& target, int source, const std::vector<Co
   for (Index i = 0; i < x_.size(); ++i) target_[i] = target.row(static_cast<Eigen::Index>(i)).transpose();
   const bool apart = sheet_->stays_apart(target_);
   if (!apart && !go_as_expected()) find_candidates();
-  const std::span<const FeaturePair> pairs = apart ? std::span<const FeaturePair>() : candidates_.pairs();
   const auto first = static_cast<std::ptrdiff_t>(contacts.size());
-  for (const FeaturePair& pair : pairs) add(pair, source, is_held(held, key_of(pair, source)), contacts);
   // Contacts that bear a force may have left the candidates.
   for (const ContactConstraint& contact : held) {
-    const FeaturePair pair{static_cast<Feature>(contact.key.kind), contact.key.features};
-    if (contact.key.kind != passed_kind && !std::ranges::binary_search(pairs, pair)) add(pair, source, true, contacts);
+    if (contact.key.kind == passed_kind) continue;
+    add({static_cast<Feature>(contact.key.kind), contact.key.features}, source, true, contacts);
+  }
+  if (!apart) {
+    filter_.set(x_, target_);
+    candidates_.for_near(filter_, touch_reach * terms_.distance, [&](const FeaturePair& pair) {
+      if (!is_held(held, key_of(pair, source))) add(pair, source, false, contacts);
+    });
   }
   if (entanglement_) bring_back(source, contacts);
   std::ranges::sort(contacts.begin() + first, contacts.end(), {}, &ContactConstraint::key);
