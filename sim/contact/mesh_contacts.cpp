@@ -20,7 +20,9 @@ constexpr int vertex_kind = -1;        // kind of vertex-body contacts, sorted b
 constexpr int passed_kind = 2;         // kind of contacts that bring back features that have passed through
 constexpr int through_kind = 3;        // kind of contacts that bring edges out of a solid
 constexpr double touch_reach = 1.25;   // largest gap of touching features, in distances
-constexpr int most_steps_ahead = 8;    // steps that one search covers
+constexpr int most_steps_ahead = 8;    // steps that one search of self-collision covers
+constexpr double way_ahead = 1.5;      // longest way of a vertex in these steps, in distances
+constexpr double path_slack = 0.35;    // largest deviation from it, in distances
 constexpr double resolved = 1e-9;      // least length of a difference with a direction, as a fraction of the distance
 
 Point plane_normal(Feature feature, const FourPoints& p) {
@@ -118,7 +120,7 @@ void SelfContacts::begin(const Vertices& x, double start, double end) {
 
 bool SelfContacts::go_as_expected() const {
   if (steps_since_ >= steps_ahead_) return false;
-  const double before = steps_since_, after = before + 1, most = target_slack * terms_.distance;
+  const double before = steps_since_, after = before + 1, most = path_slack * terms_.distance;
   for (Index i = 0; i < x_.size(); ++i) {
     const Point from = found_at_[i] + before * way_[i], to = found_at_[i] + after * way_[i];
     if (!((x_[i] - from).squaredNorm() <= most * most && (target_[i] - to).squaredNorm() <= most * most)) return false;
@@ -137,9 +139,9 @@ void SelfContacts::find_candidates() {
   found_at_ = x_;
   steps_since_ = 0;
   steps_ahead_ = 1;
-  while (steps_ahead_ < most_steps_ahead && (steps_ahead_ + 1) * longest <= terms_.distance) ++steps_ahead_;
+  while (steps_ahead_ < most_steps_ahead && (steps_ahead_ + 1) * longest <= way_ahead * terms_.distance) ++steps_ahead_;
   for (Index i = 0; i < x_.size(); ++i) ahead_[i] = x_[i] + steps_ahead_ * way_[i];
-  candidates_.find(x_, ahead_, (touch_reach + 2 * target_slack) * terms_.distance);
+  candidates_.find(x_, ahead_, (touch_reach + 2 * path_slack) * terms_.distance);
 }
 
 double SelfContacts::rest_distance(const FeaturePair& pair) const {
