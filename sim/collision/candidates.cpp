@@ -6,9 +6,6 @@
 #include <limits>
 #include <numeric>
 
-#include "sim/collision/distance.hpp"
-#include "sim/parallel/loops.hpp"
-
 namespace drape {
 namespace {
 
@@ -18,17 +15,12 @@ using Index = std::size_t;
 constexpr Eigen::Index usual_pairs = 16;
 // Part of the reach that rounding errors of the boxes stay below.
 constexpr double lost = 1e-6;
+// Features whose pairs are filtered together: enough to fill the lanes, few enough for the cache.
+constexpr std::size_t block_size = 16;
 
 Box around(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
 
 }  // namespace
-
-bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, double reach) {
-  if (kept_apart(feature, from, to, reach)) return false;
-  for (std::size_t i = 0; i < 4; ++i) to[i] -= from[i];
-  const double near = reach + largest_change(feature, to);
-  return nearest(feature, from).squared <= near * near;
-}
 
 CollisionCandidates::CollisionCandidates(const Cloth& cloth, const Threads& threads)
     : threads_(for_so_many(threads, cloth.vertex_count())),
@@ -80,36 +72,45 @@ void CollisionCandidates::find(const std::vector<Point>& from, const std::vector
       triangle_hash_.build(triangle_boxes_);
     }
   });
-  const auto add = [&](const FeaturePair& pair, std::vector<FeaturePair>& found) {
-    const auto& v = pair.vertices;
-    if (std::all_of(v.begin(), v.end(), [&](int i) { return pinned_[static_cast<Index>(i)] != 0; })) return;
-    if (may_come_near(pair.feature, gather(from, v), gather(to, v), reach)) found.push_back(pair);
-  };
-  // Features are visited in order, so only the pairs of each need sorting.
-  const auto find_all = [&](Index count, auto&& find_of) {
-    found_.fill(threads_, static_cast<Eigen::Index>(count), [&](Eigen::Index k, std::vector<FeaturePair>& found) {
-      const auto before = static_cast<std::ptrdiff_t>(found.size());
-      find_of(static_cast<Index>(k), found);
-      std::sort(found.begin() + before, found.end());
-    });
-    found_.append_to(pairs_);
-  };
+  filter_.set(from, to);
   pairs_.clear();
-  find_all(corners_.size(), [&](Index k, std::vector<FeaturePair>& found) {
+  find_pairs(Feature::vertex_triangle, corners_.size(), reach, [&](Index k, auto&& add) {
     const int i = corners_[k];
     triangle_hash_.for_overlapping(vertex_boxes_[static_cast<Index>(i)], [&](int t) {
       const auto& [a, b, c] = triangles_[static_cast<Index>(t)];
-      if (i != a && i != b && i != c) add({Feature::vertex_triangle, {i, a, b, c}}, found);
+      if (i != a && i != b && i != c) add({i, a, b, c});
     });
   });
-  find_all(edges_.size(), [&](Index k, std::vector<FeaturePair>& found) {
+  vertex_pairs_ = pairs_.size();
+  find_pairs(Feature::edge_edge, edges_.size(), reach, [&](Index k, auto&& add) {
     const Edge& edge = edges_[k];
     edge_hash_.for_later(static_cast<int>(k), [&](int l) {
       const auto& [a, b] = edge;
       const auto& [c, d] = edges_[static_cast<Index>(l)];
-      if (a != c && a != d && b != c && b != d) add({Feature::edge_edge, {a, b, c, d}}, found);
+      if (a != c && a != d && b != c && b != d) add({a, b, c, d});
     });
   });
+}
+
+template <class Find>
+void CollisionCandidates::find_pairs(Feature feature, Index count, double reach, Find&& find) {
+  const auto pinned = [&](int i) { return pinned_[static_cast<Index>(i)] != 0; };
+  const Index blocks = (count + block_size - 1) / block_size;
+  const auto find_block = [&](Eigen::Index block, std::vector<FeaturePair>& found) {
+    const Index first = static_cast<Index>(block) * block_size, before = found.size();
+    for (Index k = first; k < std::min(first + block_size, count); ++k) {
+      find(k, [&](const std::array<int, 4>& vertices) {
+        if (!std::ranges::all_of(vertices, pinned)) found.push_back({feature, vertices});
+      });
+    }
+    Index near = before;
+    filter_.for_near(feature, std::span(found).subspan(before), reach,
+                     [&](const FeaturePair& pair) { found[near++] = pair; });
+    found.resize(near);
+    std::ranges::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end());
+  };
+  found_.fill(threads_, static_cast<Eigen::Index>(blocks), find_block, worth_dividing / block_size);
+  found_.append_to(pairs_);
 }
 
 Point CollisionCandidates::mean(const std::vector<Point>& points) const {

@@ -7,6 +7,7 @@
 #include "drape/sim/cloth.hpp"
 #include "sim/collision/distance.hpp"
 #include "sim/collision/monotone_sheet.hpp"
+#include "sim/collision/pair_filter.hpp"
 #include "sim/collision/placed_mesh.hpp"
 #include "sim/collision/spatial_index.hpp"
 #include "sim/parallel/loops.hpp"
@@ -14,25 +15,8 @@
 
 namespace drape {
 
-/// Two features of a cloth that share no vertex and may touch in a step.
-struct FeaturePair {
-  Feature feature;
-  std::array<int, 4> vertices;  ///< in the order of FourPoints
-
-  auto operator<=>(const FeaturePair&) const = default;  // NOLINT(modernize-use-nullptr): it takes <=> for a 0
-};
-
-/// Returns the four points of a pair.
-inline FourPoints gather(const std::vector<Point>& points, const std::array<int, 4>& v) {
-  return {points[static_cast<std::size_t>(v[0])], points[static_cast<std::size_t>(v[1])],
-          points[static_cast<std::size_t>(v[2])], points[static_cast<std::size_t>(v[3])]};
-}
-
-/// Returns false only if two features stay further apart than `reach` [m] while their points move on straight lines.
-bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, double reach);
-
 /// Search for the pairs of features of a cloth that may come near each other while its vertices move on straight lines.
-/// The mean motion of the cloth is subtracted, as it changes no distance.
+/// The mean motion is subtracted: it changes no distance. A search uses no earlier one; SelfContacts keeps its pairs.
 class CollisionCandidates {
  public:
   /// @param threads shared by a search if the cloth is large
@@ -45,10 +29,21 @@ class CollisionCandidates {
   /// Returns the pairs found last, sorted: vertex-triangle pairs, then edge-edge pairs.
   [[nodiscard]] const std::vector<FeaturePair>& pairs() const { return pairs_; }
 
+  /// Calls visit(pair) for those of pairs() that may come within `reach` [m] on the paths of a filter, in their order.
+  template <class Visit>
+  void for_near(const PairFilter& paths, double reach, Visit&& visit) const {
+    const std::span<const FeaturePair> all = pairs_;
+    paths.for_near(Feature::vertex_triangle, all.first(vertex_pairs_), reach, visit);
+    paths.for_near(Feature::edge_edge, all.subspan(vertex_pairs_), reach, visit);
+  }
+
  private:
   /// Computes the boxes around the paths of all vertices.
   /// @param together mean motion of the cloth, which is subtracted
   void surround(const std::vector<Point>& from, const std::vector<Point>& to, const Point& together, double margin);
+  /// Appends the near pairs of the features k < count, for each of which find(k, add) calls add(vertices).
+  template <class Find>
+  void find_pairs(Feature feature, std::size_t count, double reach, Find&& find);
   [[nodiscard]] Point mean(const std::vector<Point>& points) const;
   /// Returns the box around the boxes of the vertices.
   [[nodiscard]] Box box(const Edge& edge) const;
@@ -61,8 +56,10 @@ class CollisionCandidates {
   std::vector<char> pinned_;
   std::vector<Box> vertex_boxes_, triangle_boxes_, edge_boxes_;
   SpatialHash triangle_hash_, edge_hash_;
+  PairFilter filter_;
   PartLists<FeaturePair> found_;
   std::vector<FeaturePair> pairs_;
+  std::size_t vertex_pairs_ = 0;  // number of vertex-triangle pairs, which are first
 };
 
 /// Features of a cloth and a body that may meet. The body's feature is a triangle, its corner, or the edge from that

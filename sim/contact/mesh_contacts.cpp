@@ -20,7 +20,9 @@ constexpr int vertex_kind = -1;        // kind of vertex-body contacts, sorted b
 constexpr int passed_kind = 2;         // kind of contacts that bring back features that have passed through
 constexpr int through_kind = 3;        // kind of contacts that bring edges out of a solid
 constexpr double touch_reach = 1.25;   // largest gap of touching features, in distances
-constexpr int most_steps_ahead = 8;    // steps that one search covers
+constexpr int most_steps_ahead = 8;    // steps that one search of self-collision covers
+constexpr double way_ahead = 1.5;      // longest way of a vertex in these steps, in distances
+constexpr double path_slack = 0.35;    // largest deviation from it, in distances
 constexpr double resolved = 1e-9;      // least length of a difference with a direction, as a fraction of the distance
 
 Point plane_normal(Feature feature, const FourPoints& p) {
@@ -118,7 +120,7 @@ void SelfContacts::begin(const Vertices& x, double start, double end) {
 
 bool SelfContacts::go_as_expected() const {
   if (steps_since_ >= steps_ahead_) return false;
-  const double before = steps_since_, after = before + 1, most = target_slack * terms_.distance;
+  const double before = steps_since_, after = before + 1, most = path_slack * terms_.distance;
   for (Index i = 0; i < x_.size(); ++i) {
     const Point from = found_at_[i] + before * way_[i], to = found_at_[i] + after * way_[i];
     if (!((x_[i] - from).squaredNorm() <= most * most && (target_[i] - to).squaredNorm() <= most * most)) return false;
@@ -137,9 +139,9 @@ void SelfContacts::find_candidates() {
   found_at_ = x_;
   steps_since_ = 0;
   steps_ahead_ = 1;
-  while (steps_ahead_ < most_steps_ahead && (steps_ahead_ + 1) * longest <= terms_.distance) ++steps_ahead_;
+  while (steps_ahead_ < most_steps_ahead && (steps_ahead_ + 1) * longest <= way_ahead * terms_.distance) ++steps_ahead_;
   for (Index i = 0; i < x_.size(); ++i) ahead_[i] = x_[i] + steps_ahead_ * way_[i];
-  candidates_.find(x_, ahead_, (touch_reach + 2 * target_slack) * terms_.distance);
+  candidates_.find(x_, ahead_, (touch_reach + 2 * path_slack) * terms_.distance);
 }
 
 double SelfContacts::rest_distance(const FeaturePair& pair) const {
@@ -160,13 +162,17 @@ void SelfContacts::find(const Vertices& target, int source, const std::vector<Co
   for (Index i = 0; i < x_.size(); ++i) target_[i] = target.row(static_cast<Eigen::Index>(i)).transpose();
   const bool apart = sheet_->stays_apart(target_);
   if (!apart && !go_as_expected()) find_candidates();
-  const std::span<const FeaturePair> pairs = apart ? std::span<const FeaturePair>() : candidates_.pairs();
   const auto first = static_cast<std::ptrdiff_t>(contacts.size());
-  for (const FeaturePair& pair : pairs) add(pair, source, is_held(held, key_of(pair, source)), contacts);
   // Contacts that bear a force may have left the candidates.
   for (const ContactConstraint& contact : held) {
-    const FeaturePair pair{static_cast<Feature>(contact.key.kind), contact.key.features};
-    if (contact.key.kind != passed_kind && !std::ranges::binary_search(pairs, pair)) add(pair, source, true, contacts);
+    if (contact.key.kind == passed_kind) continue;
+    add({static_cast<Feature>(contact.key.kind), contact.key.features}, source, true, contacts);
+  }
+  if (!apart) {
+    filter_.set(x_, target_);
+    candidates_.for_near(filter_, touch_reach * terms_.distance, [&](const FeaturePair& pair) {
+      if (!is_held(held, key_of(pair, source))) add(pair, source, false, contacts);
+    });
   }
   if (entanglement_) bring_back(source, contacts);
   std::ranges::sort(contacts.begin() + first, contacts.end(), {}, &ContactConstraint::key);

@@ -12,6 +12,7 @@
 #include "sim/collision/closest_point_cache.hpp"
 #include "sim/collision/entanglement.hpp"
 #include "sim/collision/monotone_sheet.hpp"
+#include "sim/collision/pair_filter.hpp"
 #include "sim/collision/placed_mesh.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/contact/seams.hpp"
@@ -159,8 +160,9 @@ class SelfContacts final : public ContactSource {
   std::vector<int> pieces_;  // number of each vertex's piece; empty for one piece
   Eigen::MatrixXd frictions_;
   SeamDistances seams_;
-  std::optional<MonotoneSheet> sheet_;        // made by the first step: many systems are only asked what they touch
-  CollisionCandidates candidates_;            // for `steps_ahead_` steps at constant velocities
+  std::optional<MonotoneSheet> sheet_;        // rules out any search; made by the first step, as many systems make none
+  CollisionCandidates candidates_;            // kept for `steps_ahead_` steps at constant velocities
+  PairFilter filter_;                         // for the step
   std::optional<Entanglement> entanglement_;  // at the start of the step, if it is to be separated
   double duration_ = 0;
   int steps_since_ = 0, steps_ahead_ = 0;

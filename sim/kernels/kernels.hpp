@@ -125,6 +125,15 @@ struct StripProduct {
   int strips;
 };
 
+/// Pairs of features whose vertices move on straight paths.
+struct PairPaths {
+  const float* rows;    ///< eight numbers a vertex: x, y, z, 0 at the start of its path, then at the end [m]
+  const int* vertices;  ///< four vertices of the first pair
+  int stride;           ///< numbers from one pair's vertices to the next's
+  int count;
+  float reach;  ///< [m]
+};
+
 /// The hot loops, compiled once per instruction set. All versions give the same bits: the same operations on each
 /// element, sums in the same order, no fused multiply-add. Sums over many numbers use eight interleaved lanes.
 struct Kernels {
@@ -184,6 +193,12 @@ struct Kernels {
   /// Computes block := block L⁻ᵀ for `width` columns of some strips, `stride` numbers apart. Rows of L have eight
   /// numbers in `triangle`, with reciprocals on the diagonal.
   void (*divide_strips)(const double* triangle, int width, double* block, std::size_t stride, int strips);
+
+  /// Finds the pairs of edges, or of a vertex and a triangle, that may come within `reach`. Rejects a pair if a slab
+  /// wider than `reach` separates its features at both ends of the paths, for one axis, computed in single precision.
+  /// Writes the numbers of the other pairs, in ascending order, and returns how many there are.
+  int (*near_edges)(const PairPaths&, int* near);
+  int (*near_vertices)(const PairPaths&, int* near);
 };
 
 /// Returns the fastest kernels for this processor, within the limit of limit_instruction_set().

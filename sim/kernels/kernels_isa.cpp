@@ -5,6 +5,7 @@
 
 #include "sim/kernels/isa_bands.hpp"
 #include "sim/kernels/isa_packing.hpp"
+#include "sim/kernels/isa_pairs.hpp"
 #include "sim/kernels/isa_simd.hpp"
 #include "sim/kernels/isa_springs.hpp"
 #include "sim/kernels/isa_strips.hpp"
@@ -66,6 +67,8 @@ constexpr Kernels DRAPE_TABLE = {
     .backward_double = solve_backward<FourDoubles, double>,
     .subtract_product = subtract_product,
     .divide_strips = divide_strips,
+    .near_edges = find_near<EdgePair>,
+    .near_vertices = find_near<VertexTrianglePair>,
 };
 
 }  // namespace drape
