@@ -13,7 +13,6 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "drape/render/image.hpp"
-#include "render/gl/inspect.hpp"
 #include "render/smooth_surface.hpp"
 
 namespace drape {
@@ -73,7 +72,7 @@ DrawCloth::DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, c
       static_buffer_(gl_),
       dynamic_buffer_(gl_),
       index_buffer_(gl_),
-      height_(size.y()) {
+      size_(size) {
   if (!uvs.empty() && uvs.size() != 3 * triangles.size()) {
     throw std::invalid_argument("a cloth needs a texture coordinate for each corner of each triangle, or none at all");
   }
@@ -111,7 +110,7 @@ void DrawCloth::paint(const ClothLook& look, const std::vector<std::array<float,
     throw UsageError(fmt::format("the texture {} cannot be put on a cloth whose mesh has no texture coordinates",
                                  shown(look.texture)));
   }
-  cloth.texture = load_texture(look.texture, repeats(std::span(triangles_).subspan(first, last - first), own));
+  load_texture(cloth, look.texture, repeats(std::span(triangles_).subspan(first, last - first), own));
 }
 
 std::size_t DrawCloth::painted_at(int triangle) const {
@@ -119,12 +118,14 @@ std::size_t DrawCloth::painted_at(int triangle) const {
   return static_cast<std::size_t>(after - painted_.begin()) - 1;
 }
 
-Texture DrawCloth::load_texture(const std::filesystem::path& file, const std::array<bool, 2>& repeating) const {
+void DrawCloth::load_texture(Painted& cloth, const std::filesystem::path& file,
+                             const std::array<bool, 2>& repeating) const {
   GLint largest = 0;
   gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   const std::vector<TextureLevel> levels = load_texture_image(file, largest);
-  Texture texture(gl_);
-  gl_.BindTexture(GL_TEXTURE_2D, texture.id());
+  cloth.texture_size = {levels.front().width, levels.front().height};
+  cloth.texture.emplace(gl_);
+  gl_.BindTexture(GL_TEXTURE_2D, cloth.texture->id());
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 2);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     gl_.TexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGB16, levels[i].width, levels[i].height, 0, GL_RGB,
@@ -135,11 +136,6 @@ Texture DrawCloth::load_texture(const std::filesystem::path& file, const std::ar
   // At the cloth's border a filter that repeated the texture would mix in the colour of the opposite border.
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, repeating[0] ? GL_REPEAT : GL_CLAMP_TO_EDGE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, repeating[1] ? GL_REPEAT : GL_CLAMP_TO_EDGE);
-  if (look_.anisotropy > 1) {
-    gl_.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY,
-                      static_cast<float>(std::min(max_anisotropy(gl_), look_.anisotropy)));
-  }
-  return texture;
 }
 
 void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
@@ -170,8 +166,26 @@ void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
       corners.push_back(corner);
     }
   }
+  find_footprints(corners);
   add_hem(corners);
   upload_corners(corners);
+}
+
+void DrawCloth::find_footprints(const std::vector<Corner>& corners) {
+  const auto textured = [](const Painted& cloth) { return cloth.texture.has_value(); };
+  if (most_footprint_samples(look_.anisotropy) == 1 || std::ranges::none_of(painted_, textured)) return;
+  std::vector<Eigen::Matrix2d> edges;
+  for (std::size_t t = 0; t < surface_.triangles().size(); ++t) {
+    const Painted& cloth = painted_[painted_at(surface_.pieces()[t].parent)];
+    Eigen::Matrix2d edge;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::array<float, 2>&from = corners[indices_[3 * t]].uv, &to = corners[indices_[3 * t + k + 1]].uv;
+      edge.col(static_cast<Eigen::Index>(k)) =
+          Eigen::Vector2d(double{to[0]} - from[0], double{to[1]} - from[1]).cwiseProduct(cloth.texture_size);
+    }
+    edges.push_back(edge);
+  }
+  footprints_.emplace(std::move(edges), look_.anisotropy);
 }
 
 // The hem takes the texture of the border beside it. Its corners are in the order of its vertices.
@@ -265,20 +279,17 @@ void DrawCloth::upload_colors(std::span<const Rgb> colors) {
   gl_.VertexAttribPointer(color_attribute, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float), nullptr);
 }
 
-void DrawCloth::find_programs(std::size_t sphere_count, bool colored, bool woven) {
-  if (painted_.front().programs[0] && sphere_count_ == sphere_count && colored_ == colored && woven_ == woven) return;
+void DrawCloth::choose_programs(std::size_t sphere_count, bool colored, bool woven) {
+  if (sphere_count_ == sphere_count && colored_ == colored && woven_ == woven) return;
   sphere_count_ = sphere_count;
   colored_ = colored;
   woven_ = woven;
-  for (Painted& cloth : painted_) {
-    for (std::size_t light = 0; light < (look_.shadows ? kinds_of_light : 1); ++light) {
-      cloth.programs[light] = find_program(cloth, static_cast<ClothShadow::Light>(light));
-    }
-  }
+  for (Painted& cloth : painted_) cloth.programs = {};
 }
 
-const Program* DrawCloth::find_program(const Painted& cloth, ClothShadow::Light light) const {
+const Program* DrawCloth::find_program(const Painted& cloth, std::size_t kind) const {
   using Light = ClothShadow::Light;
+  const auto light = static_cast<Light>(kind % kinds_of_light);
   const bool shadows = light == Light::past_spheres || light == Light::past_cloth;
   std::vector<std::string> defines = light_defines(look_, sphere_count_, shadows);
   if (light == Light::past_spheres) defines.emplace_back("PAST_SPHERES");
@@ -286,7 +297,9 @@ const Program* DrawCloth::find_program(const Painted& cloth, ClothShadow::Light 
   if (colored_) {
     defines.emplace_back("VERTEX_COLORS");
   } else if (cloth.texture) {
+    const std::array<int, kinds_of_samples> samples{1, 2, most_footprint_samples(look_.anisotropy)};
     defines.emplace_back("TEXTURE");
+    defines.push_back(fmt::format("SAMPLES {}", samples[kind / kinds_of_light]));
   }
   if (woven_ && cloth.woven) defines.emplace_back("WEAVE");
   if (look_.mesh_lines) defines.emplace_back("MESH_LINES");
@@ -295,6 +308,7 @@ const Program* DrawCloth::find_program(const Painted& cloth, ClothShadow::Light 
 
 void DrawCloth::set_uniforms(const Painted& cloth, const Program& program) const {
   program.set("cloth_texture", 0);
+  program.set("anisotropy", static_cast<float>(look_.anisotropy));
   program.set("translucency", static_cast<float>(look_.translucency));
   program.set("cloth_color", linear_color(cloth.color));
   program.set("line_color", linear_color(look_.line_color));
@@ -302,16 +316,19 @@ void DrawCloth::set_uniforms(const Painted& cloth, const Program& program) const
   if (woven_ && cloth.woven) weave_->set_uniform(program);
 }
 
-// Sorts triangles by cloth, then by light: reading the shadow map takes llvmpipe several times as long as all else in a
-// pixel.
-void DrawCloth::upload_indices(const ClothShadow* shadow) {
-  std::vector<std::vector<unsigned>> groups(kinds_of_light * painted_.size());
+// Sorts triangles by cloth, then by samples of the texture, then by light: reading the shadow map takes llvmpipe
+// several times as long as all else in a pixel, and each sample of a texture a sixth of the rest.
+void DrawCloth::upload_indices(const Shot& shot, const ClothShadow* shadow) {
+  std::vector<std::vector<unsigned>> groups(kinds * painted_.size());
+  const std::vector<int>* samples = nullptr;
+  if (footprints_ && !colored_) samples = &footprints_->count(shot, positions_, surface_.triangles(), size_);
   groups[0].reserve(indices_.size());
   std::vector<std::size_t> group_of;
   for (std::size_t t = 0; t < surface_.triangles().size(); ++t) {
     const std::size_t light =
         shadow == nullptr ? 0 : static_cast<std::size_t>(shadow->light_on(surface_.triangles()[t]));
-    group_of.push_back(kinds_of_light * painted_at(surface_.pieces()[t].parent) + light);
+    const std::size_t more = samples == nullptr ? 0 : static_cast<std::size_t>(std::min((*samples)[t], 3) - 1);
+    group_of.push_back(kinds * painted_at(surface_.pieces()[t].parent) + kinds_of_light * more + light);
   }
   for (const int piece : hem_.pieces()) group_of.push_back(group_of[static_cast<std::size_t>(piece)]);
   for (std::size_t t = 0; t < group_of.size(); ++t) {
@@ -320,7 +337,7 @@ void DrawCloth::upload_indices(const ClothShadow* shadow) {
   }
   std::vector<unsigned>& all = groups[0];
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    painted_[k / kinds_of_light].counts[k % kinds_of_light] = groups[k].size() / 3;
+    painted_[k / kinds].counts[k % kinds] = groups[k].size() / 3;
     if (k > 0) all.insert(all.end(), groups[k].begin(), groups[k].end());
   }
   gl_.BindVertexArray(array_.id());
@@ -331,18 +348,19 @@ void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<cons
   upload_shape();
   if (occlusion_) upload_occlusion(shot);
   if (!colors.empty()) upload_colors(colors);
-  find_programs(shot.spheres.size(), !colors.empty(), colors.empty() && weave_ && weave_->visible(shot, height_));
-  painted_.front().counts = {indices_.size() / 3, 0, 0, 0};
-  if (shadow != nullptr || painted_.size() > 1) upload_indices(shadow);
+  choose_programs(shot.spheres.size(), !colors.empty(), colors.empty() && weave_ && weave_->visible(shot, size_.y()));
+  painted_.front().counts = {indices_.size() / 3};
+  if (shadow != nullptr || painted_.size() > 1 || footprints_) upload_indices(shot, shadow);
   gl_.BindVertexArray(array_.id());
   std::size_t first = 0;
-  for (const Painted& cloth : painted_) {
+  for (Painted& cloth : painted_) {
     if (cloth.texture) {
       gl_.ActiveTexture(GL_TEXTURE0);
       gl_.BindTexture(GL_TEXTURE_2D, cloth.texture->id());
     }
-    for (std::size_t k = 0; k < kinds_of_light; first += cloth.counts[k++]) {
+    for (std::size_t k = 0; k < kinds; first += cloth.counts[k++]) {
       if (cloth.counts[k] == 0) continue;
+      if (cloth.programs[k] == nullptr) cloth.programs[k] = find_program(cloth, k);
       const Program& program = *cloth.programs[k];
       program.use();
       set_uniforms(cloth, program);

@@ -14,6 +14,7 @@
 #include "render/shadows.hpp"
 #include "render/shot.hpp"
 #include "render/smooth_surface.hpp"
+#include "render/texture_footprint.hpp"
 
 namespace drape {
 
@@ -68,15 +69,18 @@ class DrawCloth {
 
  private:
   static constexpr std::size_t kinds_of_light = 4;
+  static constexpr std::size_t kinds_of_samples = 3;  // of the texture: one, two or most_footprint_samples()
+  static constexpr std::size_t kinds = kinds_of_light * kinds_of_samples;
 
   /// A cloth with one texture or colour.
   struct Painted {
     int first_triangle;  // of the mesh
     Rgb color;
     std::optional<Texture> texture;
-    bool woven = true;                                         // has texture coordinates, which a weave needs
-    std::array<std::size_t, kinds_of_light> counts{};          // triangles per kind of light, in the index buffer
-    std::array<const Program*, kinds_of_light> programs = {};  // likewise; without shadows only the first is set
+    Eigen::Vector2d texture_size{0, 0};               // [texels]
+    bool woven = true;                                // has texture coordinates, which a weave needs
+    std::array<std::size_t, kinds> counts{};          // triangles per kind of samples and light, in the index buffer
+    std::array<const Program*, kinds> programs = {};  // likewise; null until used
   };
 
   /// Attributes of a GL vertex that are the same in all frames.
@@ -95,19 +99,20 @@ class DrawCloth {
 
   void paint(const ClothLook& look, const std::vector<std::array<float, 2>>& uvs);
   /// @param repeating per texture coordinate: true if the texture repeats, false if it ends at 0 and 1
-  [[nodiscard]] Texture load_texture(const std::filesystem::path& file, const std::array<bool, 2>& repeating) const;
+  void load_texture(Painted& cloth, const std::filesystem::path& file, const std::array<bool, 2>& repeating) const;
   /// Returns the number of the cloth that a triangle of the mesh belongs to.
   [[nodiscard]] std::size_t painted_at(int triangle) const;
   void make_corners(const std::vector<std::array<float, 2>>& uvs);
+  void find_footprints(const std::vector<Corner>& corners);
   void add_hem(std::vector<Corner>& corners);
   void upload_corners(const std::vector<Corner>& corners);
   void upload_shape();
   void upload_occlusion(const Shot& shot);
   void upload_colors(std::span<const Rgb> colors);
   /// @param shadow null: no shadows
-  void upload_indices(const ClothShadow* shadow);
-  void find_programs(std::size_t sphere_count, bool colored, bool woven);
-  const Program* find_program(const Painted& cloth, ClothShadow::Light light) const;
+  void upload_indices(const Shot& shot, const ClothShadow* shadow);
+  void choose_programs(std::size_t sphere_count, bool colored, bool woven);
+  [[nodiscard]] const Program* find_program(const Painted& cloth, std::size_t kind) const;
   void set_uniforms(const Painted& cloth, const Program& program) const;
 
   GlDevice& device_;
@@ -124,13 +129,14 @@ class DrawCloth {
   Buffer static_buffer_, dynamic_buffer_, index_buffer_;
   std::optional<Buffer> color_buffer_;  // made when vertices first have colours
   std::optional<Buffer> occlusion_buffer_;
-  std::optional<AmbientOcclusion> occlusion_;  // and its buffer: absent if the look has none
-  std::vector<Painted> painted_;               // in the order of the triangles
-  std::vector<unsigned> indices_;              // corners of all triangles
+  std::optional<AmbientOcclusion> occlusion_;    // and its buffer: absent if the look has none
+  std::vector<Painted> painted_;                 // in the order of the triangles
+  std::vector<unsigned> indices_;                // corners of all triangles
+  std::optional<TextureFootprints> footprints_;  // absent without textures or anisotropy
   std::size_t sphere_count_ = 0;
   bool colored_ = false, woven_ = false;
   std::optional<Weave> weave_;
-  int height_;  // of the picture [pixels]
+  Eigen::Vector2i size_;  // of the picture [pixels]
 };
 
 }  // namespace drape

@@ -170,7 +170,7 @@ Keys look_keys(Look& look, std::optional<Quality>& quality) {
            "Value of the last of these colours; the first is 0. Default: a value that 95 % of the cloth stays below.")
       .above(0);
   keys.add("anisotropy", &look.anisotropy, "",
-           "Anisotropic filtering of the texture, where OpenGL supports it; 1 is off. Takes time in software.")
+           "Stretch of the texture, where the cloth is seen aslant, up to which it stays sharp; 1 is off. Takes time.")
       .at_least(1)
       .at_most(16);
   keys.add("mesh_lines", &look.mesh_lines, "", "Draws the edges of the triangles.");

@@ -11,6 +11,9 @@ uniform vec3 weave;  // yarns in a unit of u and of v; depth of their relief
 #endif
 #ifdef TEXTURE
 uniform sampler2D cloth_texture;
+#if SAMPLES > 1
+uniform float anisotropy;  // ratio, length by width, up to which a footprint is resolved across
+#endif
 #elif defined(VERTEX_COLORS)
 in vec3 vertex_color;
 #else
@@ -31,6 +34,8 @@ flat in vec3 edge_line_scale;
 
 in vec3 world_position;
 in vec3 world_normal;
+in vec3 to_eye;
+in vec3 halfway;
 
 out vec4 color;  // premultiplied
 
@@ -66,13 +71,41 @@ float woven() {
 }
 #endif
 
+#if defined(TEXTURE) && SAMPLES > 1
+// Returns the mean of samples along the longer axis of the pixel's footprint in the texture. A footprint up to
+// `tolerated` times as long as wide gives the value of a single sample, so that no seam shows where the triangles drawn
+// with one begin. The mipmap's level is chosen as Mesa does: by the largest change of a coordinate.
+vec3 along_footprint() {
+  const float tolerated = 1.5;  // as in texture_footprint.hpp
+  vec2 size = vec2(textureSize(cloth_texture, 0));
+  vec2 right = dFdx(texture_position) * size, above = dFdy(texture_position) * size;  // [texels/pixel]
+  float a = dot(right, right), b = dot(right, above), c = dot(above, above);
+  float middle = 0.5 * (a + c), apart = sqrt(0.25 * (a - c) * (a - c) + b * b);
+  float longest = sqrt(middle + apart), shortest = sqrt(max(middle - apart, 0.0));
+  vec2 direction = a > c ? vec2(0.5 * (a - c) + apart, b) : vec2(b, 0.5 * (c - a) + apart);  // in the picture
+  vec2 axis = (right * direction.x + above * direction.y) * inversesqrt(max(dot(direction, direction), 1e-30)) / size;
+  vec2 change = max(abs(right), abs(above));
+  float width = max(tolerated * max(shortest, longest / anisotropy), 1.0);
+  float level = log2(min(width, max(change.x, change.y)));
+  vec2 apart_by = axis * max(1.0 - width / longest, 0.0) / float(SAMPLES - 1);
+  vec3 sum = vec3(0.0);
+  for (int k = 0; k < SAMPLES; ++k) {
+    sum += textureLod(cloth_texture, texture_position + (float(k) - 0.5 * float(SAMPLES - 1)) * apart_by, level).rgb;
+  }
+  return sum / float(SAMPLES);
+}
+#endif
+
 void main() {
   // Cloth has two sides; use the normal of the visible one.
   vec3 n = normalize(world_normal) * (gl_FrontFacing ? 1.0 : -1.0);
-  vec3 to_eye = normalize(eye - world_position);
 
 #ifdef TEXTURE
+#if SAMPLES > 1
+  vec3 albedo = along_footprint();
+#else
   vec3 albedo = texture(cloth_texture, texture_position).rgb;
+#endif
 #elif defined(VERTEX_COLORS)
   vec3 albedo = vertex_color;
 #else
@@ -122,7 +155,7 @@ void main() {
   float aside = 1.0 - clamp(dot(n, to_eye), 0.0, 1.0);
   vec3 tint = mix(vec3(1.0), albedo / max(albedo.r, max(albedo.g, albedo.b)), 0.8);
   vec3 sheen = 0.16 * tint * aside * aside * aside * (surroundings + direct * max(0.0, towards));
-  float glance = power4(half_cosine(n, to_eye, key_direction));
+  float glance = power4(max(dot(n, halfway), 0.0));
   vec3 specular = direct * 0.03 * highlight(n, key_direction, 12.0, glance * glance * glance);
 
 #ifdef VERTEX_COLORS

@@ -4,6 +4,8 @@
 #endif
 
 uniform mat4 view_projection;
+uniform vec3 eye;            // position of the camera [m]
+uniform vec3 key_direction;  // unit vector towards the key light
 
 layout(location = 0) in vec3 position;  // [m]
 layout(location = 1) in vec3 normal;
@@ -19,6 +21,10 @@ layout(location = 6) in vec2 open_sides;  // fraction of ambient light that the 
 
 out vec3 world_position;
 out vec3 world_normal;
+// Towards the camera, and halfway from there to the key light. Both change so little within a triangle that they are
+// unit vectors at its vertices and almost so between.
+out vec3 to_eye;
+out vec3 halfway;
 #if defined(TEXTURE) || defined(WEAVE)
 out vec2 texture_position;
 #endif
@@ -36,6 +42,8 @@ flat out vec3 edge_line_scale;
 void main() {
   world_position = position;
   world_normal = normal;
+  to_eye = normalize(eye - position);
+  halfway = normalize(to_eye + key_direction);
 #if defined(TEXTURE) || defined(WEAVE)
   texture_position = uv;
 #endif

@@ -67,7 +67,6 @@ namespace drape {
   ENTRY(PFNGLSCISSORPROC, Scissor)                                               \
   ENTRY(PFNGLSHADERSOURCEPROC, ShaderSource)                                     \
   ENTRY(PFNGLTEXIMAGE2DPROC, TexImage2D)                                         \
-  ENTRY(PFNGLTEXPARAMETERFPROC, TexParameterf)                                   \
   ENTRY(PFNGLTEXPARAMETERFVPROC, TexParameterfv)                                 \
   ENTRY(PFNGLTEXPARAMETERIPROC, TexParameteri)                                   \
   ENTRY(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                                   \

@@ -52,7 +52,7 @@ struct ClothLook {
 struct Look {
   std::filesystem::path texture = {};  ///< an image file; empty: the plain `color`
   Rgb color{0.85, 0.65, 0.13};         ///< colour of the cloth without a texture
-  int anisotropy = 1;                  ///< of the texture's filter, 1: off; slow in software
+  int anisotropy = 4;                  ///< stretch of a footprint up to which the texture stays sharp; 1: off
   bool mesh_lines = false;             ///< draw the triangles' edges as thin dark lines
   Rgb line_color{0.16, 0.12, 0.06};
   double line_width = 0.8;                 ///< [pixels]
