@@ -7,6 +7,8 @@
 namespace drape {
 namespace {
 
+using test::SceneFolder;
+
 class DraftGrid : public testing::Test {
  protected:
   /// Returns the number of vertices of a scene's cloth in draft quality.
