@@ -57,6 +57,8 @@ std::mutex& environment() {
   return mutex;
 }
 
+/// Sets the width of vectors, unless it is given. Mesa stores compiled shaders without their width, and crashes with
+/// those of another, so only the usual width uses stored ones.
 void limit_vector_width() {
   constexpr int widest = 256;
   const char* given = std::getenv("LP_NATIVE_VECTOR_WIDTH");
@@ -74,6 +76,7 @@ void limit_vector_width() {
                     "crashes with more: unset it",
                     text));
   }
+  if (width != widest) setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 }
 
 }  // namespace
