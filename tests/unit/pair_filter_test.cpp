@@ -15,7 +15,7 @@
 namespace drape::test {
 namespace {
 
-constexpr Feature both[] = {Feature::vertex_triangle, Feature::edge_edge};
+constexpr Feature pair_kinds[] = {Feature::vertex_triangle, Feature::edge_edge};
 
 /// Pairs with straight paths, four vertices each.
 struct Paths {
@@ -87,7 +87,7 @@ TEST(PairFilter, KeepsEveryPairThatComesWithinTheReach) {
     }
     PairFilter filter;
     filter.set(paths.from, paths.to);
-    for (const Feature feature : both) {
+    for (const Feature feature : pair_kinds) {
       const std::vector<FeaturePair> pairs = paths.pairs(feature);
       for (std::size_t k = 0; k < pairs.size(); ++k) {
         ASSERT_EQ(count_near(filter, feature, std::span(pairs).subspan(k, 1), paths.least_distance(pairs[k])), 1U)
@@ -100,7 +100,7 @@ TEST(PairFilter, KeepsEveryPairThatComesWithinTheReach) {
 // Parallel slabs are the worst case: no axis is better, and both distances are known without an error.
 TEST(PairFilter, KeepsLayersAtTheReachAndRejectsThoseBeyond) {
   constexpr double reach = 0.01;
-  for (const Feature feature : both) {
+  for (const Feature feature : pair_kinds) {
     const bool edges = feature == Feature::edge_edge;
     for (const double apart : {reach, 1.01 * reach}) {
       Paths paths;
@@ -134,7 +134,7 @@ TEST(PairFilter, RejectsMostDistantPairs) {
   }
   PairFilter filter;
   filter.set(paths.from, paths.to);
-  for (const Feature feature : both) {
+  for (const Feature feature : pair_kinds) {
     std::size_t distant = 0, kept = 0;
     const std::vector<FeaturePair> pairs = paths.pairs(feature);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -157,7 +157,7 @@ TEST(PairFilter, RejectsNothingThatIsNotFinite) {
       paths.add(p, p);
       PairFilter filter;
       filter.set(paths.from, paths.to);
-      for (const Feature feature : both) EXPECT_EQ(count_near(filter, feature, paths.pairs(feature), 1), 1U);
+      for (const Feature feature : pair_kinds) EXPECT_EQ(count_near(filter, feature, paths.pairs(feature), 1), 1U);
     }
   }
 }
