@@ -62,6 +62,12 @@ StepLedger::Value StepLedger::value_of(const Vertices& x, double time) const {
   value.gradient += others.cast<Real>();
   value.gradient_rounding += 4 * unit * others.norm();
   value.energy_rounding += 4 * unit * (value.energy + others.norm() * x.norm());
+  // Bending is a sum over pairs of stiffnesses of either sign, which cancel in a flat cloth.
+  StiffnessBound bound{.pairs = {}, .vertices = Eigen::VectorXd::Zero(x.rows())};
+  for (const auto& energy : system_.energies) energy->add_bound(bound);
+  for (const Spring& pair : bound.pairs) {
+    value.energy_rounding += 4 * unit * std::abs(pair.stiffness) / 2 * (x.row(pair.i) - x.row(pair.j)).squaredNorm();
+  }
   for (const int pin : settings_.cloth.pins) value.gradient.row(pin).setZero();
   return value;
 }
