@@ -44,6 +44,18 @@ inline constexpr std::array contact_methods{
     NamedMethod{{Method::quasi_newton, TimeScheme::sdirk2}, "QuasiNewtonSdirk2"},
 };
 
+/// All ways to compute a step.
+inline constexpr std::array all_contact_methods{
+    contact_methods[0],
+    contact_methods[1],
+    contact_methods[2],
+    contact_methods[3],
+    contact_methods[4],
+    contact_methods[5],
+    NamedMethod{{Method::implicit, TimeScheme::sdirk2}, "ImplicitSdirk2"},
+    NamedMethod{{Method::liu13, TimeScheme::sdirk2}, "Liu13Sdirk2"},
+};
+
 /// Divides the steps of an explicit method into the fewest stable substeps.
 inline SimulationSettings divided(SimulationSettings settings) {
   if (!is_explicit(settings.integrator.method)) return settings;

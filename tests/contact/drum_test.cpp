@@ -47,10 +47,7 @@ class Drum : public Solved {
     return divided(result);
   }
 };
-INSTANTIATE_TEST_SUITE_P(Nightly, Drum,
-                         testing::Values(contact_methods[0], contact_methods[1], contact_methods[2],
-                                         contact_methods[5]),
-                         method_name);
+INSTANTIATE_TEST_SUITE_P(Nightly, Drum, testing::ValuesIn(all_contact_methods), method_name);
 
 /// How fast the strap moves over the drum once it has stopped to swing [m/s].
 double slipping(const SimulationSettings& settings) {
