@@ -123,7 +123,7 @@ std::string method_text(const Scene& scene) {
     return text + fmt::format(" (auto, as {}: verlet would take about {:.2g} times as long)", choice.reason,
                               choice.verlet / choice.quasi_newton);
   }
-  const double longer = choice.quasi_newton / choice.verlet, apart = choice.apart / choice.verlet;
+  const double longer = choice.quasi_newton / choice.verlet, apart = longer - choice.contact / choice.verlet;
   text += fmt::format(" (auto, as {}: quasi-newton would take about {:.2g} times as long", choice.reason, longer);
   constexpr double notable = 1.5;
   return text + (longer > notable * apart ? fmt::format(", and {:.2g} while it touches nothing)", apart) : ")");

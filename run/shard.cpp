@@ -76,7 +76,8 @@ double estimated_cost(const Scene& scene, const RunOptions& options) {
   const double substeps = s.accuracy ? 8 : 1;
   const double stages = is_explicit(s.integrator.method) || s.integrator.scheme == TimeScheme::backward_euler ? 1 : 2;
   const Method method = s.integrator.method;
-  const double each = estimated_step(s, method, s.integrator.substep_count(), usual_stiffness);
+  const double each =
+      estimated_step(s, method, s.integrator.substep_count(), usual_stiffness) + estimated_contact(s, method);
   double seconds = run + steps * substeps * stages * each * (method == Method::implicit ? newton_per_iterated : 1);
   if (needs_drawing(options)) {
     const double pixels = static_cast<double>(scene.video.size.x()) * scene.video.size.y();

@@ -55,7 +55,7 @@ class AirForce final : public Force {
 
   void add(const State& state, double time, Vertices& force) const override {
     for_ranges(threads_, slip_.rows(), [&](Eigen::Index first, Eigen::Index count) {
-      Gusts::Cell cell;
+      std::optional<Gusts::Cell> cell;
       for (Eigen::Index i = first; i < first + count; ++i) {
         Eigen::Vector3d wind = values_.velocity;
         if (values_.gusts.speed > 0) wind += gusts_.at(state.x.row(i).transpose(), time, cell);
@@ -176,7 +176,7 @@ void GustValues::describe(Keys& keys) {
   keys.add("seed", &seed, "", "Different numbers give different gusts.");
 }
 
-Eigen::Vector3d Gusts::at(const Eigen::Vector3d& place, double time, Cell& last) const {
+Eigen::Vector3d Gusts::at(const Eigen::Vector3d& place, double time, std::optional<Cell>& last) const {
   const Eigen::Vector3d carried = (place - time * wind_) / values_.size;
   const std::array<double, 4> point{carried[0], carried[1], carried[2], time / values_.duration};
   std::array<double, 4> weight{};
@@ -186,7 +186,7 @@ Eigen::Vector3d Gusts::at(const Eigen::Vector3d& place, double time, Cell& last)
     cell[d] = static_cast<std::int64_t>(below);
     weight[d] = s * s * (3 - 2 * s);
   }
-  if (!last.known || cell != last.place) last = cell_at(cell);
+  if (!last || cell != last->place) last = cell_at(cell);
   std::array<double, 16> share{1};
   for (std::size_t d = 0, corners = 1; d < 4; ++d, corners *= 2) {
     for (std::size_t k = 0; k < corners; ++k) {
@@ -195,7 +195,7 @@ Eigen::Vector3d Gusts::at(const Eigen::Vector3d& place, double time, Cell& last)
     }
   }
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < share.size(); ++k) sum += share[k] * last.corners[k];
+  for (std::size_t k = 0; k < share.size(); ++k) sum += share[k] * last->corners[k];
   return values_.speed * sum;
 }
 
@@ -209,7 +209,7 @@ Gusts::Cell Gusts::cell_at(const std::array<std::int64_t, 4>& place) const {
       bits[k] = mixed(bits[k] + lower);
     }
   }
-  Cell cell{.place = place, .corners = {}, .known = true};
+  Cell cell{.place = place, .corners = {}};
   std::ranges::transform(bits, cell.corners.begin(), random_vector);
   return cell;
 }

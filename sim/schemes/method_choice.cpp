@@ -49,8 +49,7 @@ bool touches(const SimulationSettings& settings) {
 
 }  // namespace
 
-double estimated_step(const SimulationSettings& settings, Method method, double substeps, double stiffness,
-                      bool in_contact) {
+double estimated_step(const SimulationSettings& settings, Method method, double substeps, double stiffness) {
   const auto springs = static_cast<double>(settings.cloth.springs.size());
   const auto vertices = static_cast<double>(settings.cloth.vertex_count());
   double evaluated = 0, solved = 0;
@@ -60,9 +59,13 @@ double estimated_step(const SimulationSettings& settings, Method method, double 
   }
   if (is_explicit(method)) return substeps * (substep + springs * spring_of_substep + vertices * evaluated);
   const double iterations = std::min(most_iterations, 1 + iterations_per_substep * stiffness);
-  const bool factors = in_contact && touches(settings) && method != Method::liu13;
-  const double factored = factors ? iterations_in_contact * factor_of_vertex : 0;
-  return substep + springs * spring_of_iteration * iterations + vertices * (solved + factored * std::sqrt(vertices));
+  return substep + springs * spring_of_iteration * iterations + vertices * solved;
+}
+
+double estimated_contact(const SimulationSettings& settings, Method method) {
+  if (is_explicit(method) || method == Method::liu13 || !touches(settings)) return 0;
+  const auto vertices = static_cast<double>(settings.cloth.vertex_count());
+  return iterations_in_contact * factor_of_vertex * vertices * std::sqrt(vertices);
 }
 
 MethodChoice choose_method(const SimulationSettings& settings) {
@@ -75,8 +78,9 @@ MethodChoice choose_method(const SimulationSettings& settings) {
   choice.adapts = settings.accuracy.has_value();
   choice.substeps = settings.integrator.substeps.value_or(static_cast<int>(fewest));
   choice.verlet = estimated_step(settings, Method::verlet, choice.substeps, ratio);
-  choice.quasi_newton = steps_of_backward_euler * estimated_step(settings, Method::quasi_newton, 1, ratio);
-  choice.apart = steps_of_backward_euler * estimated_step(settings, Method::quasi_newton, 1, ratio, false);
+  choice.contact = steps_of_backward_euler * estimated_contact(settings, Method::quasi_newton);
+  choice.quasi_newton =
+      steps_of_backward_euler * estimated_step(settings, Method::quasi_newton, 1, ratio) + choice.contact;
   if (!(ratio <= most_substeps)) {
     choice.only = true;
     choice.reason = "springs are too stiff for short steps";

@@ -10,6 +10,7 @@
 #include "drape/sim/schemes/method_choice.hpp"
 #include "sim/woven_cloth.hpp"
 #include "tests/contact/contact_setup.hpp"
+#include "tests/support/cloths.hpp"
 
 namespace drape::test {
 namespace {
@@ -58,18 +59,17 @@ TEST(DefaultContact, GivesASheetThatFallsOnTheGroundNoEnergyHoweverStiffItIs) {
 }
 
 TEST(DefaultContact, GivesFabricsNoEnergyOnAnyObstacle) {
-  for (const std::string_view fabric : {"interlock", "denim", "target"}) {
-    const auto material = std::ranges::find(fabrics(), fabric, &Fabric::name);
-    ASSERT_NE(material, fabrics().end());
+  for (const std::string name : {"interlock", "denim", "target"}) {
+    const Fabric& material = test::fabric(name);
     const Mesh start = level_square(1, 12, 0.6);
     for (const bool itself : {false, true}) {
       SimulationSettings settings{.cloth = make_cloth(start, start, 1, 1, {}), .step = 0.01};
-      share_mass_by_area(material->density, settings.cloth);
-      stiffen_by_direction(material->modulus, settings.cloth);
-      settings.effects = {Gravity{}, Bending{.rigidity = material->rigidity}, Ground{},
+      share_mass_by_area(material.density, settings.cloth);
+      stiffen_by_direction(material.modulus, settings.cloth);
+      settings.effects = {Gravity{}, Bending{.rigidity = material.rigidity}, Ground{},
                           Body{.box = Eigen::Vector3d(0.5, 0.5, 0.4), .center = Eigen::Vector3d(0.1, 0, 0.2)}};
       if (itself) settings.effects.add(SelfCollision{});
-      expect_to_lose(settings, 0.6, std::string(fabric) + (itself ? " with self-collision" : ""));
+      expect_to_lose(settings, 0.6, name + (itself ? " with self-collision" : ""));
     }
   }
 }

@@ -13,14 +13,13 @@
 #include "drape/scene/scene.hpp"
 #include "drape/sim/cloth.hpp"
 #include "drape/sim/simulation.hpp"
+#include "tests/support/cloths.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape::test {
 namespace {
 
 constexpr double g = 9.8;
-
-const Fabric& fabric(std::string_view name) { return *std::ranges::find(fabrics(), name, &Fabric::name); }
 
 /// Returns the positions of a scene's cloth at rest, after steps so long that backward Euler removes all motion.
 /// @param length of the cloth [m]

@@ -91,14 +91,7 @@ double sag(test::Division division, double stiffness, Method method) {
   const test::Sheet sheet = test::clamped_strip(division, 40, 12, 1);
   const Cloth cloth = by_area(sheet.mesh, stiffness * weight, sheet.pins);
   const Vertices rest = at_rest(cloth, {Bending{.rigidity = weight}}, method);
-  double sum = 0;
-  int tips = 0;
-  for (Eigen::Index i = 0; i < rest.rows(); ++i) {
-    if (sheet.mesh.positions(i, 0) < 1 - 1e-9) continue;
-    sum -= rest(i, 2);
-    ++tips;
-  }
-  return sum / tips;
+  return test::tip_drop(sheet, rest);
 }
 
 // Nearly inextensible cloth, and cloth with springs a hundred times stiffer, on every mesh.

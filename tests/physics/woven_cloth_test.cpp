@@ -78,14 +78,7 @@ double sag(Division division, double warp, WarpWeft rigidity) {
   stiffen_by_area(1e4 * weight, cloth);
   rigidity.angle = warp * std::numbers::pi / 180;
   const Vertices rest = at_rest(cloth, {Bending{.rigidity = rigidity}});
-  double sum = 0;
-  int tips = 0;
-  for (Eigen::Index i = 0; i < rest.rows(); ++i) {
-    if (sheet.mesh.positions(i, 0) < 1 - 1e-9) continue;
-    sum -= rest(i, 2);
-    ++tips;
-  }
-  return sum / tips;
+  return tip_drop(sheet, rest);
 }
 
 // The elastica of a heavy strip with w L³/D = 1 sags by 0.1235 (see materials_test.cpp). Along the warp the strip has

@@ -41,14 +41,7 @@ double error_of_tip(Division division, int cells, double stiffness) {
   settings.integrator.max_iterations = 1000;
   Simulation simulation(std::move(settings));
   for (int i = 0; i < 100 && (i < 3 || simulation.state().v.cwiseAbs().maxCoeff() > 1e-6); ++i) simulation.step();
-  double drop = 0;
-  int tips = 0;
-  for (Eigen::Index i = 0; i < sheet.mesh.positions.rows(); ++i) {
-    if (sheet.mesh.positions(i, 0) < 1 - 1e-9) continue;
-    drop -= simulation.state().x(i, 2);
-    ++tips;
-  }
-  return drop / tips / heavy_elastica(1).drop - 1;
+  return test::tip_drop(sheet, simulation.state().x) / heavy_elastica(1).drop - 1;
 }
 
 std::string legend_of(Division division) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drape/sim/cloth.hpp"
@@ -51,6 +54,13 @@ inline Cloth disturbed(Cloth cloth) {
     cloth.velocities.row(v) << std::cos(t), std::sin(2 * t), -1;
   }
   return cloth;
+}
+
+/// Returns a fabric by its name in scenes.
+inline const Fabric& fabric(std::string_view name) {
+  const auto found = std::ranges::find(fabrics(), name, &Fabric::name);
+  if (found == fabrics().end()) throw std::out_of_range(std::string(name));
+  return *found;
 }
 
 /// Makes the homework's sphere, below the cloth.

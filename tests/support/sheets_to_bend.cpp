@@ -144,6 +144,19 @@ Sheet clamped_strip(Division division, int cells, int across, double length) {
       clamped);
 }
 
+double tip_drop(const Sheet& strip, const Vertices& x) {
+  const auto& from = strip.mesh.positions;
+  const double end = from.col(0).maxCoeff() - 1e-9;
+  double sum = 0;
+  int tips = 0;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    if (from(i, 0) < end) continue;
+    sum -= x(i, 2);
+    ++tips;
+  }
+  return sum / tips;
+}
+
 Sheet clamped_square(Division division, int n) {
   const double cell = 1.0 / n;
   const auto clamped = [](const Plane& p) { return p.minCoeff() < 1e-9 || p.maxCoeff() > 1 - 1e-9; };

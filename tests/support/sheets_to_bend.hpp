@@ -26,6 +26,10 @@ struct Sheet {
 /// as many. One more column of cells before it is pinned: a clamp.
 Sheet clamped_strip(Division division, int cells, int across, double length);
 
+/// Returns the mean drop of the free end of such a strip, which begins in the plane z = 0.
+/// @param x positions of the strip's vertices
+double tip_drop(const Sheet& strip, const Vertices& x);
+
 /// Makes the square [0, 1]² of n×n cells (n×n/4 wide ones), within a frame of pinned cells.
 Sheet clamped_square(Division division, int n);
 

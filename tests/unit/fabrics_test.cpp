@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -14,6 +13,7 @@
 #include "drape/sim/cloth.hpp"
 #include "drape/sim/effects/bending.hpp"
 #include "sim/woven_cloth.hpp"
+#include "tests/support/cloths.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape::test {
@@ -39,12 +39,6 @@ constexpr std::array measured{
     Measured{"swim", 47.971176, 104.615456, 60.238, 51.019, 0.204},
     Measured{"target", 2016.55456, 2034.97644, 125.41, 125.41, 0.22},
 };
-
-const Fabric& fabric(std::string_view name) {
-  const auto found = std::ranges::find(fabrics(), name, &Fabric::name);
-  if (found == fabrics().end()) throw std::out_of_range(std::string(name));
-  return *found;
-}
 
 // The energy is ½·2c₁₁·ε₁² + ½·2c₂₂·ε₂², and axis 2 is the warp. Folds along axis 1 bend the warp.
 TEST(Fabrics, FollowFromThePublishedMeasurements) {

@@ -9,6 +9,7 @@
 #include "drape/sim/body_shape.hpp"
 #include "drape/sim/cloth.hpp"
 #include "scene/mesh_value.hpp"
+#include "tests/support/cloths.hpp"
 #include "tests/support/scene_folder.hpp"
 
 // Shapes defined by a few numbers: their geometry, their keys in scenes, and errors.
@@ -215,14 +216,13 @@ TEST(ScenePins, AnEdgeIsEveryVertexAsFarAsTheFarthest) {
 
 /// For a plate of thickness t, rigidity and modulus are related by D = E·t²/12/(1 − ν²).
 TEST(Fabrics, PaperIsAPlate) {
-  const auto paper = std::ranges::find(fabrics(), "paper", &Fabric::name);
-  ASSERT_NE(paper, fabrics().end());
+  const Fabric& paper = test::fabric("paper");
   const double thickness = 0.11e-3, poisson = 0.3;
-  ASSERT_TRUE(paper->rigidity.isotropic() && paper->modulus.isotropic());
-  EXPECT_NEAR(paper->rigidity.warp, paper->modulus.warp * thickness * thickness / 12 / (1 - poisson * poisson),
-              0.01 * paper->rigidity.warp);
+  ASSERT_TRUE(paper.rigidity.isotropic() && paper.modulus.isotropic());
+  EXPECT_NEAR(paper.rigidity.warp, paper.modulus.warp * thickness * thickness / 12 / (1 - poisson * poisson),
+              0.01 * paper.rigidity.warp);
   for (const char* name : {"cotton", "silk", "wool", "canvas"}) {
-    EXPECT_NE(std::ranges::find(fabrics(), name, &Fabric::name), fabrics().end()) << name;
+    EXPECT_NO_THROW(test::fabric(name)) << name;
   }
 }
 

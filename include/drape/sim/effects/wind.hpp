@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "drape/sim/effects/effect.hpp"
 
@@ -35,18 +36,17 @@ class Gusts {
   /// Returns the change of the wind [m/s] at a position [m] and time [s]. Each component is between −speed and speed,
   /// continuously differentiable, and 0 on average.
   [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector3d& place, double time) const {
-    Cell none;
+    std::optional<Cell> none;
     return at(place, time, none);
   }
 
-  /// A cell of the lattice with the random vectors at its corners; unknown at first.
+  /// A cell of the lattice with the random vectors at its corners.
   struct Cell {
     std::array<std::int64_t, 4> place = {};
     std::array<Eigen::Vector3d, 16> corners;
-    bool known = false;
   };
   /// The same, and keeps the cell that holds the position: the next position is likely to be in it.
-  [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector3d& place, double time, Cell& last) const;
+  [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector3d& place, double time, std::optional<Cell>& last) const;
 
  private:
   [[nodiscard]] Cell cell_at(const std::array<std::int64_t, 4>& place) const;

@@ -14,7 +14,7 @@ struct MethodChoice {
   int substeps = 1;                      ///< stable substeps per step of velocity Verlet, as few as possible
   double verlet = 0;                     ///< estimated time of a step of velocity Verlet, see estimated_step() [s]
   double quasi_newton = 0;               ///< estimated time of two half steps of quasi-Newton [s]
-  double apart = 0;                      ///< the same while the cloth touches nothing [s]
+  double contact = 0;                    ///< part of it that is contact's, if the cloth touches something [s]
   std::string reason;                    ///< completes a sentence after "as": "the cheaper"
   bool only = false;                     ///< true if no other method is possible
   bool adapts = false;                   ///< true if an accuracy determines the substeps of every step
@@ -44,8 +44,9 @@ SimulationSettings with_method(SimulationSettings settings);
 /// Returns the time for a step on a processor of 2022, within a factor of about three [s].
 /// @param substeps per step, for explicit methods
 /// @param stiffness of the springs, as the number of stable substeps; determines the number of iterations
-/// @param in_contact the cloth touches something, if an effect lets it
-double estimated_step(const SimulationSettings& settings, Method method, double substeps, double stiffness,
-                      bool in_contact = true);
+double estimated_step(const SimulationSettings& settings, Method method, double substeps, double stiffness);
+
+/// Returns the time that a step takes longer while the cloth touches something; 0 if no effect lets it [s].
+double estimated_contact(const SimulationSettings& settings, Method method);
 
 }  // namespace drape
