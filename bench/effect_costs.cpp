@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "bench/moving_cloth.hpp"
@@ -11,6 +12,7 @@
 #include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/internal_damping.hpp"
+#include "drape/sim/effects/pressure.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
@@ -23,10 +25,10 @@ namespace {
 constexpr int steps = 10;
 constexpr double step = 0.01;  // [s]
 
-/// An effect on a cloth of `cells`×`cells` cells.
+/// An effect on a cloth of `cells`×`cells` cells, or the seams of that cloth.
 struct Case {
   std::string name;
-  Effect effect;
+  std::optional<Effect> effect;
   Cloth (*cloth)(int cells);
 };
 
@@ -57,6 +59,8 @@ std::vector<Case> cases() {
       {"body_deforming", make_breathing_cushion(), make_lying_cloth},
       {"body_far_away", Body{.box = Eigen::Vector3d(1, 1, 1), .center = Eigen::Vector3d(0, 0, -9)}, make_moving_cloth},
       {"strain_limit", StrainLimit{.max_stretch = 1.1}, make_moving_cloth},
+      {"pressure", Pressure{.pressure = 10}, make_pillow},
+      {"seam", std::nullopt, make_sewn_cloth},
       {"self_collision_at_rest", SelfCollision{.thickness = 0.012}, make_resting_cloth},
       {"self_collision", SelfCollision{.thickness = 0.012}, make_moving_cloth},
       {"self_collision_folded", SelfCollision{.thickness = 0.012}, make_folded_cloth},
@@ -70,7 +74,8 @@ Subject make(const Case& c, int cells, bool with) {
   settings.integrator.method = Method::liu13;
   settings.integrator.tolerance = 1e-3;
   settings.effects = {Gravity{}};
-  if (with) settings.effects.add(c.effect);
+  if (with && c.effect) settings.effects.add(*c.effect);
+  if (!with) settings.cloth.seams.clear();
   const auto simulation = std::make_shared<Simulation>(std::move(settings));
   return {.restore = [simulation, start = simulation->state()] { simulation->restore(start); },
           .run =

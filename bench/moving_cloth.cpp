@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "bench/textbook.hpp"
 
@@ -62,6 +64,50 @@ Cloth make_folded_cloth(int cells) {
     cloth.positions(i, 2) = gap * (number + within / layer);
   }
   return cloth;
+}
+
+Cloth make_pillow(int cells) {
+  Mesh mesh = make_grid(cells, cells);
+  const Eigen::Index upper = mesh.positions.rows();
+  std::vector<int> lower(static_cast<std::size_t>(upper));
+  int count = static_cast<int>(upper);
+  for (Eigen::Index i = 0; i < upper; ++i) {
+    const double x = mesh.positions(i, 0), y = mesh.positions(i, 1);
+    const bool border = std::max(std::abs(x), std::abs(y)) > 1 - 1e-9;
+    lower[static_cast<std::size_t>(i)] = border ? static_cast<int>(i) : count++;
+    mesh.positions(i, 2) = 0.1 * (1 - x * x) * (1 - y * y);
+  }
+  mesh.positions.conservativeResize(count, 3);
+  for (Eigen::Index i = 0; i < upper; ++i) {
+    const auto below = lower[static_cast<std::size_t>(i)];
+    if (below != i) mesh.positions.row(below) = mesh.positions.row(i).cwiseProduct(Eigen::RowVector3d(1, 1, -1));
+  }
+  const auto vertex = [&](int v) { return lower[static_cast<std::size_t>(v)]; };
+  for (const Triangle& t : std::vector(mesh.triangles)) {
+    mesh.triangles.push_back({vertex(t[0]), vertex(t[2]), vertex(t[1])});
+  }
+  return make_cloth(mesh, mesh, 1.0, stiffness, {});
+}
+
+Cloth make_sewn_cloth(int cells) {
+  Mesh half = make_grid(cells / 2, cells);
+  half.positions.col(0) *= 0.5;
+  Cloth all;
+  for (const double side : {-0.5, 0.5}) {
+    Mesh placed = half;
+    placed.positions.col(0).array() += side;
+    append(side < 0 ? "left" : "right", make_cloth(placed, placed, 0.5, stiffness, {}), all);
+  }
+  const int columns = cells / 2 + 1, right = columns * (cells + 1);
+  Seam seam;
+  for (int j = 0; j <= cells; ++j) {
+    const int a = j * columns + columns - 1, b = right + j * columns;
+    seam.ties.push_back({.vertex = a, .edge = {b, b}});
+    seam.sides[0].push_back(a);
+    seam.sides[1].push_back(b);
+  }
+  all.seams.push_back(std::move(seam));
+  return all;
 }
 
 Body make_cushion() {

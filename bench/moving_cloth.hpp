@@ -18,6 +18,12 @@ Cloth make_moving_cloth(int cells);
 /// thickness it has as many contacts as possible.
 Cloth make_folded_cloth(int cells);
 
+/// Makes a pillow at rest: two such cloths that share their border.
+Cloth make_pillow(int cells);
+
+/// Makes the cloth at rest, cut in two along its middle and sewn together there.
+Cloth make_sewn_cloth(int cells);
+
 /// Makes a cushion of 10 000 triangles under the whole cloth.
 Body make_cushion();
 

@@ -79,6 +79,9 @@ std::string check_name(Check check) {
   return {};
 }
 
+namespace {
+
+/// Describes the worst state of a check: "at 0.4 s (step 40): 2 pairs; cloth edge 1 2 goes through …".
 std::string describe_worst(Check check, const CheckFindings& found) {
   return fmt::format("at {:.4g} s (step {}): {}; {}", found.worst.time, found.worst.step,
                      check == Check::stretch  ? fmt::format("{} edges", found.worst.count)
@@ -87,7 +90,21 @@ std::string describe_worst(Check check, const CheckFindings& found) {
                      found.worst.text);
 }
 
-ResultTable audit_table(const AuditReport& report) {
+/// Returns the checks that found something.
+std::vector<Check> found_checks(const AuditReport& report) {
+  std::vector<Check> found;
+  std::ranges::copy_if(all_checks, std::back_inserter(found),
+                       [&](Check check) { return report.findings.findings(check).states > 0; });
+  return found;
+}
+
+std::string describe_rise(const EnergyAudit& energy) {
+  return fmt::format("{:.3g} J from {:.4g} s to {:.4g} s, with nothing that gives any", energy.rise, energy.from,
+                     energy.to);
+}
+
+/// Returns the table of the checks, with notes on what they cannot judge.
+ResultTable table_of_checks(const AuditReport& report) {
   ResultTable table{
       .name = "audit",
       .title = fmt::format("Audit of {}: {} states, {:.4g} s", report.file, report.findings.states(), report.duration),
@@ -98,7 +115,6 @@ ResultTable audit_table(const AuditReport& report) {
     const CheckFindings& found = report.findings.findings(check);
     table.rows.push_back({check_name(check), limit_of(check, report.limits), fmt::format("{}", found.states),
                           found.states > 0 ? fmt::format("{:.4g} s", found.first_time) : "–", most_of(check, found)});
-    if (found.states > 0) table.notes.push_back(fmt::format("{}, {}", check_name(check), describe_worst(check, found)));
   }
   const EnergyAudit& energy = report.energy;
   const bool judged = energy.not_judged.empty();
@@ -106,10 +122,6 @@ ResultTable audit_table(const AuditReport& report) {
                         judged ? (energy.found() ? "found" : "0") : "not judged",
                         energy.found() ? fmt::format("{:.4g} s", energy.from) : "–",
                         judged ? fmt::format("{:.2g} %", 100 * energy.of_available) : "–"});
-  if (energy.found()) {
-    table.notes.push_back(fmt::format("rise of energy: {:.3g} J from {:.4g} s to {:.4g} s, with nothing that gives any",
-                                      energy.rise, energy.from, energy.to));
-  }
   if (!judged) table.notes.push_back(fmt::format("rise of energy: not judged, because {}", energy.not_judged));
   const std::size_t touches = report.findings.findings(Check::ways).touches;
   if (touches > 0) {
@@ -124,11 +136,23 @@ ResultTable audit_table(const AuditReport& report) {
   return table;
 }
 
+}  // namespace
+
+ResultTable audit_table(const AuditReport& report) {
+  ResultTable table = table_of_checks(report);
+  std::vector<std::string> worst;
+  for (const Check check : found_checks(report)) {
+    worst.push_back(fmt::format("{}, {}", check_name(check), describe_worst(check, report.findings.findings(check))));
+  }
+  if (report.energy.found()) worst.push_back("rise of energy: " + describe_rise(report.energy));
+  table.notes.insert(table.notes.begin(), worst.begin(), worst.end());
+  return table;
+}
+
 std::string audit_summary(const AuditReport& report) {
   if (report.clean()) return fmt::format("{}: nothing found in {} states", report.file, report.findings.states());
   std::string text;
-  for (const Check check : all_checks) {
-    if (report.findings.findings(check).states == 0) continue;
+  for (const Check check : found_checks(report)) {
     text += (text.empty() ? "" : ", ") + check_name(check);
   }
   if (report.energy.found()) text += std::string(text.empty() ? "" : ", ") + "rise of energy";
@@ -141,7 +165,6 @@ using audit::Check;
 using audit::WorstState;
 using html::Markup;
 
-constexpr std::array drawn_checks{Check::crossings, Check::ways, Check::inside, Check::stretch, Check::stuck};
 constexpr Rgb marked_color{0.86, 0.08, 0.08}, plain_color{0.86, 0.83, 0.74};
 
 View whole_view(const Scene& scene, const WorstState& state, double aspect) {
@@ -242,10 +265,8 @@ std::vector<DrawnFinding> draw_findings(const Scene& scene, const AuditReport& r
   Look look = scene.look;
   look.texture.clear();
   look.mesh_lines = true;
-  for (const Check check : drawn_checks) {
-    const audit::CheckFindings& found = report.findings.findings(check);
-    if (found.states == 0) continue;
-    const WorstState& state = found.worst;
+  for (const Check check : found_checks(report)) {
+    const WorstState& state = report.findings.findings(check).worst;
     std::vector<Rgb> colors(static_cast<std::size_t>(cloth.vertex_count()), plain_color);
     for (const int v : state.vertices) colors[static_cast<std::size_t>(v)] = marked_color;
     const View whole = whole_view(scene, state, aspect);
@@ -261,24 +282,22 @@ std::vector<DrawnFinding> draw_findings(const Scene& scene, const AuditReport& r
 }
 
 std::string audit_page(const AuditReport& report, const std::vector<DrawnFinding>& drawn, const std::string& command) {
-  const ResultTable table = audit_table(report);
   std::vector<html::Finding> findings;
   if (report.clean()) findings.push_back({html::Tone::good, "Nothing was found"});
-  for (const DrawnFinding& finding : drawn) {
-    findings.push_back({html::Tone::bad, check_name(finding.check) + ", " +
-                                             describe_worst(finding.check, report.findings.findings(finding.check))});
+  for (const Check check : found_checks(report)) {
+    const audit::CheckFindings& found = report.findings.findings(check);
+    findings.push_back({html::Tone::bad, fmt::format("{} in {} of {} states", check_name(check), found.states,
+                                                     report.findings.states())});
   }
-  if (report.energy.found()) {
-    findings.push_back({html::Tone::bad, fmt::format("The energy rises by {:.3g} J from {:.4g} s to {:.4g} s",
-                                                     report.energy.rise, report.energy.from, report.energy.to)});
-  }
+  if (report.energy.found())
+    findings.push_back({html::Tone::bad, "The energy rises by " + describe_rise(report.energy)});
   if (!report.divergence.empty()) findings.push_back({html::Tone::bad, report.divergence});
   html::Page page;
   page.title = "drape audit: " + report.file;
   page.kind = "drape audit";
   page.heading = audit_summary(report);
   page.introduction = html::findings(findings) + html::command("Run this audit again", command);
-  page.content = html::section(2, "checks", "Checks", to_html(table));
+  page.content = html::section(2, "checks", "Checks", to_html(table_of_checks(report)));
   if (!drawn.empty()) page.content += pictures(report, drawn);
   for (const auto& [name, value] : html::provenance()) page.foot.emplace_back(name, value);
   return html::render(page);
