@@ -12,10 +12,11 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
+#include "output/codecs/limits.hpp"
+
 namespace drape {
 namespace {
 
-constexpr std::uint64_t most_jpeg_pixels = std::uint64_t{1} << 30;
 constexpr int exif_marker = JPEG_APP0 + 1;
 constexpr unsigned longest_marker = 0xFFFF;
 
@@ -122,7 +123,7 @@ cv::Mat bgr_from_jpeg(std::string_view bytes, bool turns) {
   int turn = 1;
   bool whole = begin_jpeg(reader, bytes);
   const std::uint64_t width = reader.info.image_width, height = reader.info.image_height;
-  whole = whole && width * height <= most_jpeg_pixels;
+  whole = whole && width * height <= most_decoded_pixels;
   if (whole) {
     if (const jpeg_marker_struct* exif = reader.info.marker_list; turns && exif != nullptr) {
       turn = orientation({reinterpret_cast<const char*>(exif->data), exif->data_length});

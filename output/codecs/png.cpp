@@ -6,11 +6,12 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "output/codecs/limits.hpp"
+
 namespace drape {
 namespace {
 
 constexpr int compression = 6;  // zlib's default compromise between time and size
-constexpr std::uint64_t most_pixels = std::uint64_t{1} << 30;
 
 /// Message of libpng's last error, which it raises by longjmp.
 struct Failure {
@@ -106,7 +107,7 @@ cv::Mat bgr_from_png(std::string_view bytes) {
   cv::Mat picture;
   bool whole = begin_reading(png, info);
   const std::uint64_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
-  whole = whole && width * height <= most_pixels && png_get_rowbytes(png, info) == 3 * width;
+  whole = whole && width * height <= most_decoded_pixels && png_get_rowbytes(png, info) == 3 * width;
   if (whole) {
     picture.create(static_cast<int>(height), static_cast<int>(width), CV_8UC3);
     std::vector<png_bytep> rows = rows_of(picture);
