@@ -221,18 +221,21 @@ BodyContacts::BodyContacts(std::shared_ptr<const MovingBody> body, const Contact
                            const Threads& threads)
     : body_(std::move(body)),
       terms_(terms),
+      cloth_(cloth),
+      threads_(threads),
       cloth_count_(cloth.vertex_count()),
-      start_(body_->at(0)),
-      end_(start_),
-      candidates_(body_->topology(), static_cast<int>(end_.mesh->points().size()), cloth, terms.distance, threads),
       feet_(static_cast<Index>(cloth.vertex_count()), 2 * terms.distance),
-      start_feet_(feet_) {
-  x_.resize(static_cast<Index>(cloth_count_) + end_.mesh->points().size());
+      start_feet_(feet_) {}
+
+void BodyContacts::prepare() {
+  const Index corners = start_.mesh->points().size();
+  candidates_.emplace(body_->topology(), static_cast<int>(corners), cloth_, terms_.distance, threads_);
+  x_.resize(static_cast<Index>(cloth_count_) + corners);
   target_ = x_;
   copy_shape();
-  if (!terms.separate) return;
+  if (!terms_.separate) return;
   std::vector<Triangle> triangles = numbered_after(cloth_count_, body_->topology().triangles);
-  entanglement_.emplace(std::vector{cloth.triangles, std::move(triangles)}, x_.size(), cloth.pins);
+  entanglement_.emplace(std::vector{cloth_.triangles, std::move(triangles)}, x_.size(), cloth_.pins);
   inside_.assign(Index(cloth_count_), 0);
 }
 
@@ -242,6 +245,7 @@ void BodyContacts::begin(const Vertices& x, double start, double end) {
   world_ = &x;
   start_ = body_->at(start);
   end_ = body_->at(end);
+  if (!candidates_) prepare();
   for (int i = 0; i < cloth_count_; ++i) x_[Index(i)] = start_.pose.in(x.row(i).transpose());
   if (body_->deforms()) copy_shape();
   if (entanglement_) find_astray();
@@ -360,7 +364,7 @@ void BodyContacts::find(const Vertices& target, int source, const std::vector<Co
     if (!astray) astray = (target_[Index(i)] - found_for_[Index(i)]).norm() > target_slack * terms_.distance;
   }
   if (astray) {
-    candidates_.find({x_, target_, *start_.mesh, *end_.mesh}, (kept_part + 2 * target_slack) * terms_.distance);
+    candidates_->find({x_, target_, *start_.mesh, *end_.mesh}, (kept_part + 2 * target_slack) * terms_.distance);
     found_for_ = target_;
     searched_ = true;
   }
@@ -417,7 +421,7 @@ void BodyContacts::find_vertices(const Vertices&, int source, const std::vector<
 void BodyContacts::find_pairs(int source, const std::vector<ContactConstraint>& held,
                               std::vector<ContactConstraint>& contacts) {
   const double kept = kept_part * terms_.distance;
-  for (const BodyPair& met : candidates_.pairs()) {
+  for (const BodyPair& met : candidates_->pairs()) {
     const FeaturePair& pair = met.pair;
     const ContactKey key{source, static_cast<int>(pair.feature), pair.vertices};
     if (is_astray(pair)) continue;

@@ -183,6 +183,8 @@ class BodyContacts final : public ContactSource {
             std::vector<ContactConstraint>& contacts) override;
 
  private:
+  /// Makes the search structures; called by the first step, as many systems make none.
+  void prepare();
   [[nodiscard]] bool is_clear(const Vertices& target) const;
   void find_vertices(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
                      std::vector<ContactConstraint>& contacts);
@@ -215,9 +217,11 @@ class BodyContacts final : public ContactSource {
 
   std::shared_ptr<const MovingBody> body_;
   ContactTerms terms_;
+  const Cloth& cloth_;
+  const Threads& threads_;
   int cloth_count_;
   BodyAt start_, end_;
-  BodyCandidates candidates_;
+  std::optional<BodyCandidates> candidates_;
   ClosestPointCache feet_, start_feet_;
   double duration_ = 0;
   bool searched_ = false;
