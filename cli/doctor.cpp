@@ -43,8 +43,8 @@ std::string line(const Finding& finding) {
 }
 
 std::string limits(const GlFacts& facts) {
-  return fmt::format("{} samples per pixel, textures up to {}², pictures up to {}², anisotropy {}", facts.max_samples,
-                     facts.max_texture_size, facts.max_picture_size, facts.max_anisotropy);
+  return fmt::format("{} samples per pixel, textures up to {}², pictures up to {}²", facts.max_samples,
+                     facts.max_texture_size, facts.max_picture_size);
 }
 
 std::string to_text(const Diagnosis& d) {
@@ -107,8 +107,7 @@ Json to_json(const BackendFinding& backend) {
                {"shading_language", f.shading_language},
                {"max_samples", f.max_samples},
                {"max_texture_size", f.max_texture_size},
-               {"max_picture_size", f.max_picture_size},
-               {"max_anisotropy", f.max_anisotropy}});
+               {"max_picture_size", f.max_picture_size}});
   return json;
 }
 

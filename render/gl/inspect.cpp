@@ -26,15 +26,6 @@ int number(const GlFunctions& gl, GLenum name) {
 
 }  // namespace
 
-int max_anisotropy(const GlFunctions& gl) {
-  const int extensions = number(gl, GL_NUM_EXTENSIONS);
-  for (int i = 0; i < extensions; ++i) {
-    const std::string_view name = reinterpret_cast<const char*>(gl.GetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)));
-    if (name.ends_with("_texture_filter_anisotropic")) return number(gl, GL_MAX_TEXTURE_MAX_ANISOTROPY);
-  }
-  return 1;
-}
-
 GlFacts inspect_backend(GlBackend backend) {
   const auto context = make_gl_context(backend);
   context->make_current();
@@ -45,8 +36,7 @@ GlFacts inspect_backend(GlBackend backend) {
           .shading_language = text(gl, GL_SHADING_LANGUAGE_VERSION),
           .max_samples = number(gl, GL_MAX_SAMPLES),
           .max_texture_size = number(gl, GL_MAX_TEXTURE_SIZE),
-          .max_picture_size = number(gl, GL_MAX_RENDERBUFFER_SIZE),
-          .max_anisotropy = max_anisotropy(gl)};
+          .max_picture_size = number(gl, GL_MAX_RENDERBUFFER_SIZE)};
 }
 
 namespace {

@@ -57,7 +57,6 @@ namespace drape {
   ENTRY(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                             \
   ENTRY(PFNGLGETSHADERIVPROC, GetShaderiv)                                       \
   ENTRY(PFNGLGETSTRINGPROC, GetString)                                           \
-  ENTRY(PFNGLGETSTRINGIPROC, GetStringi)                                         \
   ENTRY(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                         \
   ENTRY(PFNGLLINKPROGRAMPROC, LinkProgram)                                       \
   ENTRY(PFNGLPIXELSTOREIPROC, PixelStorei)                                       \
