@@ -107,32 +107,37 @@ void Canvas::begin(const PixelBox& box) {
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-Image Canvas::finish() {
-  Image image = empty_;
-  if (box_.empty()) return image;
-  const Eigen::Vector2i from = box_.corner, to = box_.corner + box_.size;
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, samples_.framebuffer.id());
-  if (resolved_) {
+void Canvas::finish() {
+  if (resolved_ && !box_.empty()) {
+    const Eigen::Vector2i from = box_.corner, to = box_.corner + box_.size;
+    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, samples_.framebuffer.id());
     gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_->framebuffer.id());
     gl_.BlitFramebuffer(from.x(), from.y(), to.x(), to.y(), from.x(), from.y(), to.x(), to.y(), GL_COLOR_BUFFER_BIT,
                         GL_NEAREST);
-    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_->framebuffer.id());
   }
-  gl_.ReadPixels(from.x(), from.y(), box_.size.x(), box_.size.y(), GL_RGBA, GL_UNSIGNED_SHORT, rgba_.data());
+  gl_.Flush();
+}
+
+void Canvas::read() {
+  read_box_ = box_;
+  if (box_.empty()) return;
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ ? resolved_->framebuffer.id() : samples_.framebuffer.id());
+  gl_.ReadPixels(box_.corner.x(), box_.corner.y(), box_.size.x(), box_.size.y(), GL_RGBA, GL_UNSIGNED_SHORT,
+                 rgba_.data());
   if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
     throw OutputError(fmt::format("cannot draw: OpenGL reports error {:#x}", error));
   }
-  compose(image);
-  return image;
 }
 
-void Canvas::compose(Image& image) const {
+Image Canvas::compose() const {
+  Image image = empty_;
   const std::uint8_t* encode = encoding().data();
   const std::uint16_t* from = rgba_.data();
-  for (int y = box_.corner.y(); y < box_.corner.y() + box_.size.y(); ++y) {
+  const Eigen::Vector2i begin = read_box_.corner, end = read_box_.corner + read_box_.size;
+  for (int y = begin.y(); y < end.y(); ++y) {
     const Row& row = background_[static_cast<std::size_t>(y)];
-    std::uint8_t* to = image.at(box_.corner.x(), size_.y() - 1 - y);
-    for (int x = 0; x < box_.size.x(); ++x, from += 4, to += 3) {
+    std::uint8_t* to = image.at(begin.x(), size_.y() - 1 - y);
+    for (int x = begin.x(); x < end.x(); ++x, from += 4, to += 3) {
       const std::uint32_t uncovered = full - from[3];
       if (uncovered == full) continue;
       for (std::size_t c = 0; c < 3; ++c) {
@@ -141,6 +146,7 @@ void Canvas::compose(Image& image) const {
       }
     }
   }
+  return image;
 }
 
 }  // namespace drape

@@ -17,6 +17,9 @@ namespace drape {
 /// averaged in linear light, then composed over the background and encoded as sRGB. The last two steps run here, not in
 /// OpenGL: Mesa's sRGB framebuffers differ between processors, while a table is exact and faster than a shader on a
 /// processor.
+///
+/// A picture takes four calls: begin(), finish(), read(), compose(). Mesa's threads draw between finish() and read(),
+/// and may draw the next picture before compose().
 class Canvas {
  public:
   /// @param size picture size [pixels]
@@ -27,10 +30,15 @@ class Canvas {
   /// @param box pixels that will be drawn; everything outside is background
   void begin(const PixelBox& box);
 
-  /// Returns the picture: everything drawn since begin(), over the background. Untouched pixels have the background's
-  /// exact bytes.
+  /// Averages the samples of everything drawn since begin(), and lets Mesa's threads start. Returns at once.
+  void finish();
+
+  /// Waits for Mesa's threads and reads what they have drawn.
   /// @throws OutputError if OpenGL reports an error
-  Image finish();
+  void read();
+
+  /// Returns the picture that was read, over the background. Untouched pixels have the background's exact bytes.
+  [[nodiscard]] Image compose() const;
 
  private:
   /// A colour buffer and, with `depth`, a depth buffer of the same size and number of samples.
@@ -46,17 +54,14 @@ class Canvas {
     std::array<std::uint32_t, 3> light{};  // 16 bits, linear
   };
 
-  /// Composes the content of the box over the background.
-  void compose(Image& image) const;
-
   const GlFunctions& gl_;
   Eigen::Vector2i size_;
   std::vector<Row> background_;  // rows from below
   Image empty_;                  // the background alone
-  PixelBox box_;
+  PixelBox box_, read_box_;      // of the pictures drawn and read last
   Target samples_;
   std::optional<Target> resolved_;   // absent with one sample per pixel
-  std::vector<std::uint16_t> rgba_;  // pixels of the box, rows from below
+  std::vector<std::uint16_t> rgba_;  // pixels read, rows from below
 };
 
 }  // namespace drape

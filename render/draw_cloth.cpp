@@ -92,6 +92,11 @@ void DrawCloth::shape(const Frame& frame) {
   positions_ = surface_.positions(frame.positions);
   normals_ = vertex_normals(positions_, surface_.triangles());
   hem_.append(positions_, normals_);
+  float* to = dynamic_.data();
+  for (const Source& source : sources_) {
+    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(positions_(source.vertex, axis));
+    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(normals_(source.vertex, axis));
+  }
 }
 
 void DrawCloth::paint(const ClothLook& look, const std::vector<std::array<float, 2>>& uvs) {
@@ -226,57 +231,55 @@ void DrawCloth::upload_corners(const std::vector<Corner>& corners) {
   attribute(normal_attribute, 3, 6 * sizeof(float), 3 * sizeof(float));
 }
 
-void DrawCloth::upload_shape() {
-  float* to = dynamic_.data();
-  for (const Source& source : sources_) {
-    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(positions_(source.vertex, axis));
-    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(normals_(source.vertex, axis));
-  }
-  gl_.BindBuffer(GL_ARRAY_BUFFER, dynamic_buffer_.id());
-  gl_.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(dynamic_.size() * sizeof(float)), dynamic_.data());
-}
-
 // Ambient light varies slowly in space, so it is computed at the cloth's own vertices only.
-void DrawCloth::upload_occlusion(const Shot& shot) {
+void DrawCloth::find_occlusion(const Shot& shot) {
   const Vertices& positions = shot.frame.positions;
   occluders_.take(positions, shot.frame);
   const std::vector<AmbientOcclusion::Sides>& open =
       occlusion_->compute(occluders_.positions(), vertex_normals(positions, triangles_), occluders_.triangles(),
                           shot.extent / occlusion_resolution);
-  std::vector<AmbientOcclusion::Sides> of_corners;
-  of_corners.reserve(sources_.size());
+  open_.clear();
   for (const Source& source : sources_) {
-    AmbientOcclusion::Sides& mean = of_corners.emplace_back();
+    AmbientOcclusion::Sides mean{};
     for (std::size_t k = 0; k < 3; ++k) {
       const AmbientOcclusion::Sides& corner = open[static_cast<std::size_t>(source.corners[k])];
       for (std::size_t side = 0; side < 2; ++side) mean[side] += source.weights[k] * corner[side];
     }
+    open_.insert(open_.end(), mean.begin(), mean.end());
   }
-  gl_.BindVertexArray(array_.id());
-  gl_.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer_->id());
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(of_corners.size() * sizeof(AmbientOcclusion::Sides)),
-                 of_corners.data(), GL_STREAM_DRAW);
-  gl_.EnableVertexAttribArray(occlusion_attribute);
-  gl_.VertexAttribPointer(occlusion_attribute, 2, GL_FLOAT, GL_FALSE, sizeof(AmbientOcclusion::Sides), nullptr);
 }
 
-void DrawCloth::upload_colors(std::span<const Rgb> colors) {
-  std::vector<float> linear;
-  linear.reserve(3 * sources_.size());
+void DrawCloth::find_colors(std::span<const Rgb> colors) {
+  linear_.clear();
+  if (colors.empty()) return;
   for (const Source& source : sources_) {
     Eigen::Vector3f color = Eigen::Vector3f::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
       color += source.weights[k] * linear_color(colors[static_cast<std::size_t>(source.corners[k])]);
     }
-    linear.insert(linear.end(), color.data(), color.data() + 3);
+    linear_.insert(linear_.end(), color.data(), color.data() + 3);
   }
-  if (!color_buffer_) color_buffer_.emplace(gl_);
-  gl_.BindVertexArray(array_.id());
-  gl_.BindBuffer(GL_ARRAY_BUFFER, color_buffer_->id());
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(linear.size() * sizeof(float)), linear.data(),
+}
+
+void DrawCloth::upload(const Buffer& buffer, GLuint attribute, GLint size, const std::vector<float>& numbers) {
+  gl_.BindBuffer(GL_ARRAY_BUFFER, buffer.id());
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(numbers.size() * sizeof(float)), numbers.data(),
                  GL_STREAM_DRAW);
-  gl_.EnableVertexAttribArray(color_attribute);
-  gl_.VertexAttribPointer(color_attribute, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float), nullptr);
+  gl_.EnableVertexAttribArray(attribute);
+  gl_.VertexAttribPointer(attribute, size, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
+void DrawCloth::upload() {
+  gl_.BindVertexArray(array_.id());
+  gl_.BindBuffer(GL_ARRAY_BUFFER, dynamic_buffer_.id());
+  gl_.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(dynamic_.size() * sizeof(float)), dynamic_.data());
+  if (occlusion_) upload(*occlusion_buffer_, occlusion_attribute, 2, open_);
+  if (!linear_.empty()) {
+    if (!color_buffer_) color_buffer_.emplace(gl_);
+    upload(*color_buffer_, color_attribute, 3, linear_);
+  }
+  gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(sorted_.size() * sizeof(unsigned)),
+                    sorted_.data());
 }
 
 void DrawCloth::choose_programs(std::size_t sphere_count, bool colored, bool woven) {
@@ -318,11 +321,10 @@ void DrawCloth::set_uniforms(const Painted& cloth, const Program& program) const
 
 // Sorts triangles by cloth, then by samples of the texture, then by light: reading the shadow map takes llvmpipe
 // several times as long as all else in a pixel, and each sample of a texture a sixth of the rest.
-void DrawCloth::upload_indices(const Shot& shot, const ClothShadow* shadow) {
+void DrawCloth::sort_triangles(const Shot& shot, const ClothShadow* shadow) {
   std::vector<std::vector<unsigned>> groups(kinds * painted_.size());
   const std::vector<int>* samples = nullptr;
   if (footprints_ && !colored_) samples = &footprints_->count(shot, positions_, surface_.triangles(), size_);
-  groups[0].reserve(indices_.size());
   std::vector<std::size_t> group_of;
   for (std::size_t t = 0; t < surface_.triangles().size(); ++t) {
     const std::size_t light =
@@ -335,23 +337,23 @@ void DrawCloth::upload_indices(const Shot& shot, const ClothShadow* shadow) {
     std::vector<unsigned>& group = groups[group_of[t]];
     for (std::size_t c = 0; c < 3; ++c) group.push_back(indices_[3 * t + c]);
   }
-  std::vector<unsigned>& all = groups[0];
+  sorted_.clear();
   for (std::size_t k = 0; k < groups.size(); ++k) {
     painted_[k / kinds].counts[k % kinds] = groups[k].size() / 3;
-    if (k > 0) all.insert(all.end(), groups[k].begin(), groups[k].end());
+    sorted_.insert(sorted_.end(), groups[k].begin(), groups[k].end());
   }
-  gl_.BindVertexArray(array_.id());
-  gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(all.size() * sizeof(unsigned)), all.data());
 }
 
-void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors) {
-  upload_shape();
-  if (occlusion_) upload_occlusion(shot);
-  if (!colors.empty()) upload_colors(colors);
+void DrawCloth::prepare(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors) {
+  if (occlusion_) find_occlusion(shot);
+  find_colors(colors);
   choose_programs(shot.spheres.size(), !colors.empty(), colors.empty() && weave_ && weave_->visible(shot, size_.y()));
   painted_.front().counts = {indices_.size() / 3};
-  if (shadow != nullptr || painted_.size() > 1 || footprints_) upload_indices(shot, shadow);
-  gl_.BindVertexArray(array_.id());
+  if (shadow != nullptr || painted_.size() > 1 || footprints_) sort_triangles(shot, shadow);
+}
+
+void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow) {
+  upload();
   std::size_t first = 0;
   for (Painted& cloth : painted_) {
     if (cloth.texture) {

@@ -56,16 +56,20 @@ class DrawCloth {
     weave_.emplace(rest, triangles_, uvs);
   }
 
-  /// Computes the surface of the next frame to draw.
+  /// Computes the surface of the next frame to draw. Uses no OpenGL, as prepare().
   void shape(const Frame& frame);
   /// Triangles of the surface, without the hem.
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return surface_.triangles(); }
   /// Positions of the vertices of surface and hem.
   [[nodiscard]] const Vertices& positions() const { return positions_; }
 
+  /// Computes all else that draw() passes to OpenGL.
   /// @param shadow shadow map of the frame, if the look has shadows
   /// @param colors colours of the cloth's vertices, which replace texture and colour; empty: none
-  void draw(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors = {});
+  void prepare(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors = {});
+
+  /// Draws what was prepared, with the same arguments.
+  void draw(const Shot& shot, const ClothShadow* shadow);
 
  private:
   static constexpr std::size_t kinds_of_light = 4;
@@ -106,11 +110,13 @@ class DrawCloth {
   void find_footprints(const std::vector<Corner>& corners);
   void add_hem(std::vector<Corner>& corners);
   void upload_corners(const std::vector<Corner>& corners);
-  void upload_shape();
-  void upload_occlusion(const Shot& shot);
-  void upload_colors(std::span<const Rgb> colors);
+  void find_occlusion(const Shot& shot);
+  void find_colors(std::span<const Rgb> colors);
   /// @param shadow null: no shadows
-  void upload_indices(const Shot& shot, const ClothShadow* shadow);
+  void sort_triangles(const Shot& shot, const ClothShadow* shadow);
+  void upload();
+  /// Fills the buffer of an attribute with `size` numbers per vertex.
+  void upload(const Buffer& buffer, GLuint attribute, GLint size, const std::vector<float>& numbers);
   void choose_programs(std::size_t sphere_count, bool colored, bool woven);
   [[nodiscard]] const Program* find_program(const Painted& cloth, std::size_t kind) const;
   void set_uniforms(const Painted& cloth, const Program& program) const;
@@ -125,6 +131,8 @@ class DrawCloth {
   Occluders occluders_;          // of ambient light
   std::vector<Source> sources_;  // per GL vertex
   std::vector<float> dynamic_;   // position and normal of each GL vertex
+  std::vector<float> open_;      // light that reaches the sides of each GL vertex; empty without ambient occlusion
+  std::vector<float> linear_;    // colour of each GL vertex; empty if the vertices have none
   VertexArray array_;
   Buffer static_buffer_, dynamic_buffer_, index_buffer_;
   std::optional<Buffer> color_buffer_;  // made when vertices first have colours
@@ -132,6 +140,7 @@ class DrawCloth {
   std::optional<AmbientOcclusion> occlusion_;    // and its buffer: absent if the look has none
   std::vector<Painted> painted_;                 // in the order of the triangles
   std::vector<unsigned> indices_;                // corners of all triangles
+  std::vector<unsigned> sorted_;                 // the same in the order of drawing; empty if that is any
   std::optional<TextureFootprints> footprints_;  // absent without textures or anisotropy
   std::size_t sphere_count_ = 0;
   bool colored_ = false, woven_ = false;

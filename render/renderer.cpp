@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "render/canvas.hpp"
 #include "render/draw_cloth.hpp"
@@ -48,30 +49,32 @@ class Renderer::Implementation {
 
   /// @param colors colours of the vertices; empty: none
   Image draw(const Frame& frame, std::span<const Rgb> colors) {
+    if (started_) throw std::logic_error("finish() must return the frame that start() began before draw()");
+    start(frame, colors);
+    return *finish();
+  }
+
+  // Mesa's threads may draw the previous frame until it is read, so this frame is prepared before.
+  std::optional<Image> start(const Frame& frame, std::span<const Rgb> colors) {
     if (frame.positions.rows() != vertex_count_) {  // the triangles refer to this many
       throw std::invalid_argument("a frame has another number of vertices than its renderer was made for");
     }
     device_->make_current();
     const Shot shot(frame, view_, static_cast<double>(size_.x()) / size_.y(), look_);
-    cloth_.shape(frame);
-    canvas_.begin(covered_box(shot, cloth_.positions(), size_));
-    occluders_.take(cloth_.positions(), frame);
-    if (shadow_) shadow_->cast(shot, occluders_);
-    const ClothShadow* shadow = shadow_ ? &*shadow_ : nullptr;
-    if (!shot.grounds.empty()) {
-      if (!grounds_) grounds_.emplace(*device_, look_, shot.spheres.size());
-      grounds_->draw(shot, shadow, size_);
-    }
-    cloth_.draw(shot, shadow, colors);
-    if (!shot.spheres.empty()) {  // after the cloth, which hides much of them
-      if (!spheres_) spheres_.emplace(*device_, look_, shot.spheres.size(), shot.grounds.size());
-      spheres_->draw(shot, shadow);
-    }
-    if (!shot.bodies.empty()) {
-      if (!bodies_) bodies_.emplace(*device_, look_, shot.spheres.size(), shot.grounds.size());
-      bodies_->draw(shot, shadow);
-    }
-    return canvas_.finish();
+    prepare(shot, colors);
+    const bool previous = std::exchange(started_, false);
+    if (previous) canvas_.read();
+    draw(shot);
+    started_ = true;
+    if (!previous) return std::nullopt;
+    return canvas_.compose();
+  }
+
+  std::optional<Image> finish() {
+    if (!std::exchange(started_, false)) return std::nullopt;
+    device_->make_current();
+    canvas_.read();
+    return canvas_.compose();
   }
 
   [[nodiscard]] std::string description() const {
@@ -81,6 +84,34 @@ class Renderer::Implementation {
   }
 
  private:
+  void prepare(const Shot& shot, std::span<const Rgb> colors) {
+    cloth_.shape(shot.frame);
+    occluders_.take(cloth_.positions(), shot.frame);
+    if (shadow_) shadow_->cast(shot, occluders_);
+    cloth_.prepare(shot, shadow(), colors);
+  }
+
+  void draw(const Shot& shot) {
+    canvas_.begin(covered_box(shot, cloth_.positions(), size_));
+    if (shadow_) shadow_->upload();
+    if (!shot.grounds.empty()) {
+      if (!grounds_) grounds_.emplace(*device_, look_, shot.spheres.size());
+      grounds_->draw(shot, shadow(), size_);
+    }
+    cloth_.draw(shot, shadow());
+    if (!shot.spheres.empty()) {  // after the cloth, which hides much of them
+      if (!spheres_) spheres_.emplace(*device_, look_, shot.spheres.size(), shot.grounds.size());
+      spheres_->draw(shot, shadow());
+    }
+    if (!shot.bodies.empty()) {
+      if (!bodies_) bodies_.emplace(*device_, look_, shot.spheres.size(), shot.grounds.size());
+      bodies_->draw(shot, shadow());
+    }
+    canvas_.finish();
+  }
+
+  [[nodiscard]] const ClothShadow* shadow() const { return shadow_ ? &*shadow_ : nullptr; }
+
   Eigen::Vector2i size_;
   View view_;
   Look look_;
@@ -93,7 +124,20 @@ class Renderer::Implementation {
   std::optional<DrawSphere> spheres_;  // made at the first frame with a sphere
   std::optional<DrawGround> grounds_;  // likewise
   std::optional<DrawBody> bodies_;     // likewise
+  bool started_ = false;               // true while Mesa draws a frame that has not been read
 };
+
+namespace {
+
+/// @throws std::invalid_argument if the frame has not as many vertices as there are colours
+std::span<const Rgb> checked(const std::vector<Rgb>& vertex_colors, const Frame& frame) {
+  if (vertex_colors.empty() || vertex_colors.size() != static_cast<std::size_t>(frame.positions.rows())) {
+    throw std::invalid_argument("a frame needs a colour for each of its vertices");
+  }
+  return vertex_colors;
+}
+
+}  // namespace
 
 Renderer::Renderer(const std::filesystem::path& data_folder, Eigen::Vector2i size, const View& view, const Look& look,
                    int vertex_count, const std::vector<Triangle>& triangles,
@@ -114,11 +158,16 @@ void Renderer::look_from(const View& view) { implementation_->look_from(view); }
 Image Renderer::draw(const Frame& frame) { return implementation_->draw(frame, {}); }
 
 Image Renderer::draw(const Frame& frame, const std::vector<Rgb>& vertex_colors) {
-  if (vertex_colors.empty() || vertex_colors.size() != static_cast<std::size_t>(frame.positions.rows())) {
-    throw std::invalid_argument("a frame needs a colour for each of its vertices");
-  }
-  return implementation_->draw(frame, vertex_colors);
+  return implementation_->draw(frame, checked(vertex_colors, frame));
 }
+
+std::optional<Image> Renderer::start(const Frame& frame) { return implementation_->start(frame, {}); }
+
+std::optional<Image> Renderer::start(const Frame& frame, const std::vector<Rgb>& vertex_colors) {
+  return implementation_->start(frame, checked(vertex_colors, frame));
+}
+
+std::optional<Image> Renderer::finish() { return implementation_->finish(); }
 
 std::string Renderer::description() const { return implementation_->description(); }
 

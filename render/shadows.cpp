@@ -162,7 +162,9 @@ void ClothShadow::cast(const Shot& shot, const Occluders& occluders) {
     center[3] = 1;
     spheres_.emplace_back(map_.u().dot(center), map_.v().dot(center), map_.depth().dot(center), double{sphere[3]});
   }
+}
 
+void ClothShadow::upload() {
   constexpr std::array<float, 1> nothing{-std::numeric_limits<float>::max()};
   const bool empty = map_.columns() == 0;
   const Eigen::Vector2i size = empty ? Eigen::Vector2i(1, 1) : Eigen::Vector2i(map_.columns(), map_.rows());

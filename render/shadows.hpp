@@ -101,8 +101,10 @@ class ClothShadow {
   /// @param rows height of the picture [pixels]
   ClothShadow(const GlFunctions& gl, int rows);
 
-  /// Draws the map of a frame.
+  /// Draws the map of a frame. Uses no OpenGL.
   void cast(const Shot& shot, const Occluders& occluders);
+  /// Passes the map to OpenGL.
+  void upload();
 
   [[nodiscard]] const DepthMap& map() const { return map_; }
 

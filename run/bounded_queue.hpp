@@ -36,6 +36,12 @@ class BoundedQueue {
     return item;
   }
 
+  /// Returns true if pop() would wait, or return nothing.
+  [[nodiscard]] bool empty() const {
+    const std::scoped_lock lock(mutex_);
+    return items_.empty();
+  }
+
   /// Closes the queue to new items; queued items can still be taken. Callable from either end.
   void close() {
     const std::scoped_lock lock(mutex_);
@@ -46,7 +52,7 @@ class BoundedQueue {
 
  private:
   std::size_t capacity_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable not_full_, not_empty_;
   std::deque<T> items_;
   bool closed_ = false;

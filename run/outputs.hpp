@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drape/render/image.hpp"
@@ -196,17 +197,29 @@ class FilmPainter {
 
   [[nodiscard]] std::string description() const { return renderer_.description(); }
 
-  Image paint(const Frame& frame) {
+  /// Starts painting a frame; returns the one before it with its picture, if that is not finished.
+  std::optional<FilmFrame> start(Frame frame) {
     renderer_.look_from(path_.at(frame.index));
-    if (!annotations_) return renderer_.draw(frame);
-    const std::vector<Rgb> colors = annotations_->colors(frame);
-    return annotations_->annotate(colors.empty() ? renderer_.draw(frame) : renderer_.draw(frame, colors), frame);
+    const std::vector<Rgb> colors = annotations_ ? annotations_->colors(frame) : std::vector<Rgb>();
+    std::optional<Image> drawn = colors.empty() ? renderer_.start(frame) : renderer_.start(frame, colors);
+    std::optional<Frame> previous = std::exchange(started_, std::move(frame));
+    return annotated(std::move(previous), std::move(drawn));
   }
 
+  /// Returns the frame started last with its picture, if it is not finished.
+  std::optional<FilmFrame> finish() { return annotated(std::exchange(started_, {}), renderer_.finish()); }
+
  private:
+  std::optional<FilmFrame> annotated(std::optional<Frame> frame, std::optional<Image> drawn) {
+    if (!frame || !drawn) return std::nullopt;
+    Image image = annotations_ ? annotations_->annotate(std::move(*drawn), *frame) : std::move(*drawn);
+    return FilmFrame{std::move(*frame), std::move(image)};
+  }
+
   const CameraPath& path_;
   std::optional<Annotations>& annotations_;
   Renderer renderer_;
+  std::optional<Frame> started_;  // not finished
 };
 
 }  // namespace drape

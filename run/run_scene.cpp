@@ -327,23 +327,42 @@ class Pipeline {
     result_.renderer = painter.description();
     // Hold back a frame that no output needs: the last frame of a film that ends early must be drawn.
     std::optional<Frame> held;
-    while (std::optional<Frame> frame = frames_.pop()) {
+    while (std::optional<Frame> frame = next_frame(painter)) {
       if (held) film_.push({std::move(*std::exchange(held, {})), std::nullopt});
       if (outputs_.needs_picture(frame->index - extent_.frames.first)) {
         paint(painter, std::move(*frame));
       } else {
+        finish_picture(painter);
         held = std::move(frame);
       }
     }
     if (held) paint(painter, std::move(*held));
+    finish_picture(painter);
+  }
+
+  /// Takes the next frame; finishes the picture before it rather than wait.
+  std::optional<Frame> next_frame(FilmPainter& painter) {
+    if (frames_.empty()) finish_picture(painter);
+    return frames_.pop();
   }
 
   void paint(FilmPainter& painter, Frame frame) {
+    if (stop_drawing_.stop_requested()) {
+      finish_picture(painter);
+      film_.push({std::move(frame), std::nullopt});
+      return;
+    }
     const auto begin = Clock::now();
-    std::optional<Image> image;
-    if (!stop_drawing_.stop_requested()) image.emplace(painter.paint(frame));
+    std::optional<FilmFrame> previous = painter.start(std::move(frame));
     result_.draw_seconds += seconds_since(begin);
-    film_.push({std::move(frame), std::move(image)});
+    if (previous) film_.push(std::move(*previous));
+  }
+
+  void finish_picture(FilmPainter& painter) {
+    const auto begin = Clock::now();
+    std::optional<FilmFrame> last = painter.finish();
+    result_.draw_seconds += seconds_since(begin);
+    if (last) film_.push(std::move(*last));
   }
 
   void write() {

@@ -43,6 +43,7 @@ namespace drape {
   ENTRY(PFNGLENABLEPROC, Enable)                                                 \
   ENTRY(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)               \
   ENTRY(PFNGLFINISHPROC, Finish)                                                 \
+  ENTRY(PFNGLFLUSHPROC, Flush)                                                   \
   ENTRY(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)               \
   ENTRY(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                     \
   ENTRY(PFNGLGENBUFFERSPROC, GenBuffers)                                         \

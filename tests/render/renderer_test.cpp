@@ -7,7 +7,10 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <set>
+#include <stdexcept>
+#include <vector>
 
 #include "drape/core/error.hpp"
 #include "render/gl/context.hpp"
@@ -86,6 +89,39 @@ TEST(Renderer, DrawsASphereAsLargeAsItsTangentConeIs) {
   // The highlight is white and does not count, so the area is only bounded from above.
   EXPECT_LT(half_covered, M_PI * (expected + 0.5) * (expected + 0.5));
   EXPECT_GT(half_covered, 0.9 * M_PI * expected * expected);
+}
+
+TEST(Renderer, DrawsAFilmAsItDrawsItsFramesOneByOne) {
+  const Mesh mesh = make_grid(4, 4);
+  const std::vector<Rgb> colors(25, Rgb{0, 0.5, 1});
+  View aside = from_above();
+  aside.position.x() += 2;
+  std::vector<Frame> frames(4, Frame{.positions = mesh.positions});
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    frames[k].positions.col(2).array() += 0.3 * static_cast<double>(k);
+    // The last frame covers a smaller part of the picture.
+    if (k < 3) frames[k].colliders = {SphereShape{{0.2 * static_cast<double>(k), 0, 1}, 0.5}};
+  }
+  for (const int samples : {1, 4}) {
+    Look look;
+    look.samples = samples;
+    Renderer film(data_folder(), {120, 100}, from_above(), look, 25, mesh.triangles, mesh.uvs);
+    Renderer alone(data_folder(), {120, 100}, from_above(), look, 25, mesh.triangles, mesh.uvs);
+    std::optional<Image> previous;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      const View view = k == 1 ? aside : from_above();
+      film.look_from(view);
+      alone.look_from(view);
+      const std::optional<Image> drawn = k == 2 ? film.start(frames[k], colors) : film.start(frames[k]);
+      ASSERT_EQ(drawn.has_value(), previous.has_value());
+      EXPECT_TRUE(!drawn || drawn->pixels == previous->pixels) << k;
+      previous = k == 2 ? alone.draw(frames[k], colors) : alone.draw(frames[k]);
+    }
+    EXPECT_THROW(film.draw(frames[0]), std::logic_error);
+    EXPECT_EQ(film.finish().value().pixels, previous->pixels);
+    EXPECT_FALSE(film.finish());
+    EXPECT_EQ(film.draw(frames[0]).pixels, alone.draw(frames[0]).pixels);
+  }
 }
 
 TEST(Renderer, LightsBothSidesOfTheCloth) {

@@ -43,6 +43,17 @@ TEST(BoundedQueue, NeverHoldsMoreThanItsCapacity) {
   EXPECT_EQ(popped, 5);
 }
 
+TEST(BoundedQueue, IsEmptyAfterItsLastItem) {
+  BoundedQueue<int> queue(2);
+  EXPECT_TRUE(queue.empty());
+  queue.push(1);
+  EXPECT_FALSE(queue.empty());
+  queue.close();
+  EXPECT_FALSE(queue.empty());
+  queue.pop();
+  EXPECT_TRUE(queue.empty());
+}
+
 TEST(BoundedQueue, ClosingWakesAProducerThatWaits) {
   BoundedQueue<int> queue(1);
   ASSERT_TRUE(queue.push(0));

@@ -10,6 +10,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ class Renderer {
 
   /// Draws a frame.
   /// @throws std::invalid_argument if the frame has another number of vertices
+  /// @throws std::logic_error if a frame was started and is not finished
   /// @throws OutputError if OpenGL reports an error
   Image draw(const Frame& frame);
 
@@ -57,6 +59,15 @@ class Renderer {
   /// @param vertex_colors one per vertex; they are lit like any other
   /// @throws std::invalid_argument if their number differs from that of the vertices
   Image draw(const Frame& frame, const std::vector<Rgb>& vertex_colors);
+
+  /// Starts drawing a frame, as draw(); returns the picture of the frame before it, if that was started and not
+  /// finished. Mesa's threads draw while the caller works, so the frames of a film take less time.
+  std::optional<Image> start(const Frame& frame);
+  std::optional<Image> start(const Frame& frame, const std::vector<Rgb>& vertex_colors);
+
+  /// Returns the picture of the frame started last; nothing if it was returned before.
+  /// @throws OutputError if OpenGL reports an error
+  std::optional<Image> finish();
 
   /// Returns the name and version of the OpenGL renderer in use.
   [[nodiscard]] std::string description() const;
