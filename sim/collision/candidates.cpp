@@ -215,45 +215,20 @@ BodyCandidates::BodyCandidates(const MeshTopology& body, int body_vertices, cons
   }
 }
 
-template <class Find>
-void BodyCandidates::find_all(Find&& find) {
+void BodyCandidates::find(const BodyStep& step, double reach) {
   const int parts = static_cast<int>(findings_.size());
   const auto count = static_cast<Eigen::Index>(groups_.size());
   threads_.for_each(parts, [&](int part) {
     SearchResults& findings = findings_[Index(part)];
     findings.pairs.clear();
     for (auto g = begin_of_part(count, part, parts); g < begin_of_part(count, part + 1, parts); ++g) {
-      Group& group = groups_[Index(g)];
-      const Index before = findings.pairs.size();
-      find(group, findings);
-      group.count = findings.pairs.size() - before;
+      find_of(groups_[Index(g)], step, reach, findings);
     }
   });
   pairs_.clear();
   for (const SearchResults& findings : findings_) {
     pairs_.insert(pairs_.end(), findings.pairs.begin(), findings.pairs.end());
   }
-  Index begin = 0;
-  for (Group& group : groups_) {
-    group.begin = begin;
-    begin += group.count;
-  }
-}
-
-void BodyCandidates::find(const BodyStep& step, double reach) {
-  find_all([&](Group& group, SearchResults& findings) { find_of(group, step, reach, findings); });
-}
-
-void BodyCandidates::find_again(const BodyStep& step, double reach, const std::vector<char>& changed) {
-  pairs_.swap(before_);
-  find_all([&](Group& group, SearchResults& findings) {
-    if (std::ranges::any_of(group.vertices, [&](int i) { return changed[Index(i)] != 0; })) {
-      find_of(group, step, reach, findings);
-    } else {
-      const auto begin = before_.begin() + static_cast<std::ptrdiff_t>(group.begin);
-      findings.pairs.insert(findings.pairs.end(), begin, begin + static_cast<std::ptrdiff_t>(group.count));
-    }
-  });
 }
 
 void BodyCandidates::find_of(Group& group, const BodyStep& step, double reach, SearchResults& findings) const {
@@ -336,22 +311,17 @@ void BodyCandidates::add_pairs(const Patch& patch, int triangle, const BodyStep&
   const Patch& body = body_patches_[Index(triangle)];
   const auto &a = patch.corners, &b = body.corners;
   for (Index c = 0; c < 3; ++c) {
-    if (patch.own_vertex[c]) {
-      add({Feature::vertex_triangle, {a[c], b[0], b[1], b[2]}}, triangle, -1, step, reach, pairs);
-    }
-    if (body.own_vertex[c]) {
-      add({Feature::vertex_triangle, {b[c], a[0], a[1], a[2]}}, triangle, static_cast<int>(c), step, reach, pairs);
-    }
+    if (patch.own_vertex[c]) add({Feature::vertex_triangle, {a[c], b[0], b[1], b[2]}}, step, reach, pairs);
+    if (body.own_vertex[c]) add({Feature::vertex_triangle, {b[c], a[0], a[1], a[2]}}, step, reach, pairs);
     if (!patch.own_edge[c]) continue;
     for (Index d = 0; d < 3; ++d) {
       if (!body.own_edge[d]) continue;
-      add({Feature::edge_edge, {a[c], a[(c + 1) % 3], b[d], b[(d + 1) % 3]}}, triangle, static_cast<int>(d), step,
-          reach, pairs);
+      add({Feature::edge_edge, {a[c], a[(c + 1) % 3], b[d], b[(d + 1) % 3]}}, step, reach, pairs);
     }
   }
 }
 
-void BodyCandidates::add(const FeaturePair& pair, int triangle, int corner, const BodyStep& step, double reach,
+void BodyCandidates::add(const FeaturePair& pair, const BodyStep& step, double reach,
                          std::vector<BodyPair>& pairs) const {
   const auto& v = pair.vertices;
   if (std::ranges::all_of(v, [&](int i) { return i >= cloth_count_ || pinned_[Index(i)] != 0; })) return;
@@ -360,7 +330,7 @@ void BodyCandidates::add(const FeaturePair& pair, int triangle, int corner, cons
   const Nearest before = nearest(pair.feature, from);
   // Near the start of the step, the line between the closest points is the best separating axis.
   if (kept_apart(pair.feature, before.difference(from), from, to, reach)) return;
-  pairs.push_back({pair, triangle, corner, before});
+  pairs.push_back({pair, std::sqrt(before.squared)});
 }
 
 }  // namespace drape

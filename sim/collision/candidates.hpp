@@ -62,12 +62,10 @@ class CollisionCandidates {
   std::size_t vertex_pairs_ = 0;  // number of vertex-triangle pairs, which are first
 };
 
-/// Features of a cloth and a body that may meet. The body's feature is a triangle, its corner, or the edge from that
-/// corner.
+/// Features of a cloth and a body that may meet, and their distance at the start of the step [m].
 struct BodyPair {
   FeaturePair pair;
-  int triangle, corner;
-  Nearest before;  ///< closest points at the start of the step
+  double before;
 };
 
 /// Straight motion in a step, in the body's coordinates: the cloth's vertices, followed by the body's.
@@ -92,9 +90,6 @@ class BodyCandidates {
   /// Finds every pair that comes nearer than `reach` [m], and some more. Omits pairs whose cloth vertices are all
   /// pinned.
   void find(const BodyStep& step, double reach);
-  /// Repeats the search in the same step after some cloth vertices changed their targets; keeps the pairs of all
-  /// others.
-  void find_again(const BodyStep& step, double reach, const std::vector<char>& changed);
 
   [[nodiscard]] const std::vector<BodyPair>& pairs() const { return pairs_; }
 
@@ -103,12 +98,11 @@ class BodyCandidates {
   struct Group {
     std::span<const Patch> patches;
     std::span<const int> vertices;
-    Box region;                        // body triangles that overlap it are in `near`; empty at first
-    double travel = 0;                 // of the body when `near` was found
-    std::vector<int> near = {};        // in ascending order
-    Point axis = Point::Zero();        // plane axis·x = level, above all triangles of `near`
-    double level = 0, of_travel = 0;   // travel of the body when the plane was set
-    std::size_t begin = 0, count = 0;  // range of its pairs
+    Box region;                       // body triangles that overlap it are in `near`; empty at first
+    double travel = 0;                // of the body when `near` was found
+    std::vector<int> near = {};       // in ascending order
+    Point axis = Point::Zero();       // plane axis·x = level, above all triangles of `near`
+    double level = 0, of_travel = 0;  // travel of the body when the plane was set
   };
   /// Pairs found in one part of the groups, with buffers for the search.
   struct SearchResults {
@@ -116,9 +110,6 @@ class BodyCandidates {
     std::vector<int> near = {};        // body triangles near a group in a step
     std::vector<Box> near_boxes = {};  // boxes of these triangles
   };
-  /// Collects the pairs that find(group, findings) adds for each group.
-  template <class Find>
-  void find_all(Find&& find);
   void find_of(Group& group, const BodyStep& step, double reach, SearchResults& findings) const;
   void look_around(Group& group, const Box& box, const BodyStep& step, double reach) const;
   /// Sets the plane that best separates the group from its near triangles.
@@ -127,8 +118,7 @@ class BodyCandidates {
   void add_group(const Group& group, const BodyStep& step, double reach, SearchResults& findings) const;
   void add_pairs(const Patch& patch, int triangle, const BodyStep& step, double reach,
                  std::vector<BodyPair>& pairs) const;
-  void add(const FeaturePair& pair, int triangle, int corner, const BodyStep& step, double reach,
-           std::vector<BodyPair>& pairs) const;
+  void add(const FeaturePair& pair, const BodyStep& step, double reach, std::vector<BodyPair>& pairs) const;
 
   const Threads& threads_;
   int cloth_count_;
@@ -137,7 +127,7 @@ class BodyCandidates {
   std::vector<Patch> cloth_patches_, body_patches_;  // the cloth's are sorted by group
   std::vector<int> vertices_;                        // of each group, without duplicates
   std::vector<Group> groups_;
-  std::vector<BodyPair> pairs_, before_;
+  std::vector<BodyPair> pairs_;
   std::vector<SearchResults> findings_;  // per part
 };
 

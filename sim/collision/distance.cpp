@@ -72,14 +72,16 @@ constexpr int max_steps = 200;
 
 Point mean(const FourPoints& p) { return (p[0] + p[1] + p[2] + p[3]) / 4; }
 
-}  // namespace
-
+/// Returns an upper bound on the change of two features' distance when their points move by `move` [m]. The mean motion
+/// of all four does not count.
 double largest_change(Feature feature, const FourPoints& move) {
   const Point together = mean(move);
   const double a = (move[0] - together).norm(), b = (move[1] - together).norm();
   const double c = (move[2] - together).norm(), d = (move[3] - together).norm();
   return feature == Feature::vertex_triangle ? a + std::max({b, c, d}) : std::max(a, b) + std::max(c, d);
 }
+
+}  // namespace
 
 std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints move, double widest) {
   const double speed = largest_change(feature, move);
@@ -103,20 +105,6 @@ std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints m
     if (kept_apart(feature, now.difference(p), p, to, near_enough * gap)) return std::nullopt;
   }
   return time;
-}
-
-bool comes_within(Feature feature, FourPoints p, const FourPoints& move, double distance) {
-  const double speed = largest_change(feature, move), least = 0.8 * distance;
-  double time = 0;
-  for (int step = 0; step < max_steps; ++step) {
-    const double apart = std::sqrt(nearest(feature, p).squared);
-    if (apart <= distance) return true;
-    const double forward = (apart - least) / speed;
-    if (!(time + forward <= 1)) return false;
-    time += forward;
-    for (std::size_t i = 0; i < 4; ++i) p[i] += forward * move[i];
-  }
-  return false;
 }
 
 namespace {

@@ -236,11 +236,6 @@ void RigidZones::join_all() {
   }
 }
 
-bool RigidZones::together(const std::array<int, 4>& vertices) const {
-  const int first = root(vertices[0]);
-  return std::all_of(vertices.begin() + 1, vertices.end(), [&](int v) { return root(v) == first; });
-}
-
 void RigidZones::sum_up(const std::vector<Point>& x, const MovingVertices& vertices) {
   const int count = static_cast<int>(parents_.size());
   std::vector<char>& in_zone = zone_roots_;
@@ -257,19 +252,13 @@ void RigidZones::sum_up(const std::vector<Point>& x, const MovingVertices& verti
   }
   for (const int v : members_) {
     Body& body = bodies_[Index(root(v))];
-    const Point& velocity = velocities_[Index(v)];
-    if (vertices.inverse_mass(v) == 0) {
-      if (body.pins == 0) {
-        body.velocity = velocity;
-      } else if (velocity != body.velocity) {
-        body.uneven = true;
-      }
-      ++body.pins;
-    }
+    if (vertices.inverse_mass(v) != 0 || body.pinned) continue;
+    body.velocity = velocities_[Index(v)];
+    body.pinned = true;
   }
   for (const int v : members_) {
     Body& body = bodies_[Index(root(v))];
-    if (body.pins > 0) continue;
+    if (body.pinned) continue;
     const double mass = 1 / vertices.inverse_mass(v);
     body.mass += mass;
     body.center += mass * x[Index(v)];
@@ -277,13 +266,13 @@ void RigidZones::sum_up(const std::vector<Point>& x, const MovingVertices& verti
   }
   for (const int v : members_) {
     Body& body = bodies_[Index(v)];
-    if (root(v) != v || body.pins > 0) continue;
+    if (root(v) != v || body.pinned) continue;
     body.center /= body.mass;
     body.velocity /= body.mass;
   }
   for (const int v : members_) {
     Body& body = bodies_[Index(root(v))];
-    if (body.pins > 0) continue;
+    if (body.pinned) continue;
     const double mass = 1 / vertices.inverse_mass(v);
     const Point arm = x[Index(v)] - body.center;
     body.angular_momentum += mass * arm.cross(velocities_[Index(v)] - body.velocity);
@@ -291,21 +280,17 @@ void RigidZones::sum_up(const std::vector<Point>& x, const MovingVertices& verti
   }
 }
 
-bool RigidZones::apply(const std::vector<Point>& x, MovingVertices& vertices) {
+void RigidZones::apply(const std::vector<Point>& x, MovingVertices& vertices) {
   sum_up(x, vertices);
-  bool rigid = true;
   for (const int v : members_) {
     Body& body = bodies_[Index(v)];
-    if (root(v) != v) continue;
-    if (body.pins == 0) body.spin = angular_velocity(body.inertia, body.angular_momentum);
-    rigid = rigid && !body.uneven;
+    if (root(v) == v && !body.pinned) body.spin = angular_velocity(body.inertia, body.angular_momentum);
   }
   for (const int v : members_) {
     const Body& body = bodies_[Index(root(v))];
     if (vertices.inverse_mass(v) == 0) continue;
     vertices.velocities[Index(v)] = body.velocity + body.spin.cross(x[Index(v)] - body.center);
   }
-  return rigid;
 }
 
 MovingBody::MovingBody(std::shared_ptr<const MeshMotion> shape, RigidMotion motion)
@@ -334,29 +319,6 @@ std::shared_ptr<const PlacedMesh> MovingBody::mesh_at(double time) const {
     std::rotate(idle, idle + 1, shapes_.end());
   }
   return shapes_.back().mesh;
-}
-
-MovingBody::Way::Way(const MovingBody& body, double from, double to)
-    : topology_(body.topology()),
-      from_(body.at(from)),
-      to_(body.at(to)),
-      still_(from_.mesh == to_.mesh && from_.pose.turn == to_.pose.turn && from_.pose.place == to_.pose.place) {}
-
-Eigen::Vector3d MovingBody::Way::of(int triangle, const Point& weights) const {
-  if (still_) return Eigen::Vector3d::Zero();
-  const Triangle& corners = topology_.triangles[static_cast<std::size_t>(triangle)];
-  const auto point_in = [&](const BodyAt& body) {
-    Point sum = Point::Zero();
-    for (std::size_t c = 0; c < 3; ++c) {
-      sum += weights[static_cast<Eigen::Index>(c)] * body.mesh->points()[static_cast<std::size_t>(corners[c])];
-    }
-    return body.pose.out(sum);
-  };
-  return point_in(to_) - point_in(from_);
-}
-
-Eigen::Vector3d MovingBody::displacement(double from, double to) const {
-  return motion_.at(to).place - motion_.at(from).place;
 }
 
 Vertices MovingBody::positions(double time) const {

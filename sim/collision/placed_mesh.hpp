@@ -144,7 +144,7 @@ struct MovingVertices {
 /// (Provot 1997; Bridson, Fedkiw and Anderson 2002, section 7.5; Harmon et al. 2008). A group keeps the linear and
 /// angular momentum of its vertices: v = v̄ + ω × (x − x̄). On the path x + t·v no two of its points approach each
 /// other, since I + t·[ω]× shortens no vector. So there is no collision inside a group.
-/// A group with a pin moves with the pin.
+/// A group with pins moves with the first of these.
 class RigidZones {
  public:
   /// Begins a step with each vertex in a zone of its own.
@@ -155,12 +155,9 @@ class RigidZones {
   void join(const std::array<int, 4>& vertices);
   /// Joins all zones of more than one vertex into one.
   void join_all();
-  /// Returns true if four vertices are in one zone.
-  [[nodiscard]] bool together(const std::array<int, 4>& vertices) const;
 
-  /// Sets the velocities of all vertices in zones of more than one vertex.
-  /// @return false if a zone has pins with different velocities and so cannot be rigid
-  bool apply(const std::vector<Point>& x, MovingVertices& vertices);
+  /// Sets the velocities of all free vertices in zones of more than one vertex.
+  void apply(const std::vector<Point>& x, MovingVertices& vertices);
 
  private:
   /// Sums over the vertices of a zone.
@@ -169,8 +166,7 @@ class RigidZones {
     Point center = Point::Zero(), velocity = Point::Zero(), spin = Point::Zero();  // first sums, then means
     Point angular_momentum = Point::Zero();
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-    int pins = 0;
-    bool uneven = false;  // true if its pins have different velocities
+    bool pinned = false;
   };
 
   [[nodiscard]] int root(int vertex) const;
@@ -195,26 +191,10 @@ class MovingBody {
  public:
   MovingBody(std::shared_ptr<const MeshMotion> shape, RigidMotion motion);
 
-  /// Displacement of the body's points between two times.
-  class Way {
-   public:
-    Way(const MovingBody& body, double from, double to);
-    /// Returns the displacement of the point of a triangle with these weights [m].
-    [[nodiscard]] Eigen::Vector3d of(int triangle, const Point& weights) const;
-
-   private:
-    const MeshTopology& topology_;
-    BodyAt from_, to_;
-    bool still_;
-  };
-
   [[nodiscard]] BodyAt at(double time) const { return {mesh_at(time), motion_.at(time)}; }
   /// Returns true if the shape changes.
   [[nodiscard]] bool deforms() const { return !shape_->samples.empty(); }
   [[nodiscard]] const MeshTopology& topology() const { return *topology_; }
-
-  /// Returns the displacement of the body's origin from one time to another [s] [m].
-  [[nodiscard]] Eigen::Vector3d displacement(double from, double to) const;
 
   /// Returns the vertices' positions in the world, n×3 [m].
   [[nodiscard]] Vertices positions(double time) const;

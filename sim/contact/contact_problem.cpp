@@ -7,8 +7,8 @@
 
 namespace drape {
 
-ImplicitProblem::ImplicitProblem(const System& system, const StepObjective& objective, ConstantFactor& factor,
-                                 ImplicitHessian hessian)
+ContactProblem::ContactProblem(const System& system, const StepObjective& objective, ConstantFactor& factor,
+                               ImplicitHessian hessian)
     : system_(system), objective_(objective), factor_(factor), hessian_(hessian), bound_(system.stiffness_bound()) {
   diagonal_.setZero(objective.inertia().size(), 6);
   Eigen::VectorXd& sums = most_ = objective.inertia() + bound_.vertices;
@@ -21,7 +21,7 @@ ImplicitProblem::ImplicitProblem(const System& system, const StepObjective& obje
   for (const auto& energy : system.energies) hessians_.push_back(energy->make_hessian());
 }
 
-void ImplicitProblem::linearise(const Vertices& x, double concavity, double damping) {
+void ContactProblem::linearise(const Vertices& x, double concavity, double damping) {
   damping_ = damping;
   if (hessian_ == ImplicitHessian::constant) return;
   objective_.springs().compute_blocks(x, concavity, blocks_);
@@ -31,20 +31,20 @@ void ImplicitProblem::linearise(const Vertices& x, double concavity, double damp
   for (const auto& hessian : hessians_) hessian->linearise(x, objective_.time(), concavity);
 }
 
-NewtonCholesky* ImplicitProblem::factor() {
+NewtonCholesky* ContactProblem::factor() {
   if (hessian_ == ImplicitHessian::constant) return nullptr;
   if (!newton_) newton_ = std::make_unique<NewtonCholesky>(system_, objective_);
   newton_->set_damping(damping_ * most_);
   return newton_.get();
 }
 
-double ImplicitProblem::stiffness(int vertex, const Eigen::Vector3d& u) const {
+double ContactProblem::stiffness(int vertex, const Eigen::Vector3d& u) const {
   const auto b = diagonal_.row(vertex);
   return b[0] * u[0] * u[0] + b[3] * u[1] * u[1] + b[5] * u[2] * u[2] +
          2 * (b[1] * u[0] * u[1] + b[2] * u[0] * u[2] + b[4] * u[1] * u[2]);
 }
 
-void ImplicitProblem::multiply(const Vertices& vector, Vertices& product) {
+void ContactProblem::multiply(const Vertices& vector, Vertices& product) {
   weigh(objective_.threads(), objective_.inertia(), vector, product);
   if (hessian_ == ImplicitHessian::newton) {
     objective_.springs().add_product(blocks_, vector, product);

@@ -12,46 +12,31 @@
 
 namespace drape {
 
-/// Objective function of a step under contact, with a model of its Hessian.
+/// Objective function g of an implicit step under contact, with a model H of its Hessian: Newton's without a share of
+/// its negative eigenvalues, or liu13's constant matrix.
 class ContactProblem {
  public:
-  virtual ~ContactProblem() = default;
+  ContactProblem(const System& system, const StepObjective& objective, ConstantFactor& factor, ImplicitHessian hessian);
+
   /// Sets gradient = ∇g(x), n×3 and zero on pins [N]; returns g(x) [J].
-  virtual double evaluate(const Vertices& x, Vertices& gradient) = 0;
+  double evaluate(const Vertices& x, Vertices& gradient) { return objective_.evaluate(x, gradient); }
   /// Computes the Hessian at x with a share of its negative eigenvalues, 0 to 1.
   /// @param damping added to the diagonal, as a fraction of each vertex's largest possible stiffness
-  virtual void linearise(const Vertices& x, double concavity, double damping) = 0;
+  void linearise(const Vertices& x, double concavity, double damping);
   /// Returns true for Newton's Hessian, where a small step means that the minimum is near.
-  [[nodiscard]] virtual bool exact() const = 0;
+  [[nodiscard]] bool exact() const { return hessian_ == ImplicitHessian::newton; }
   /// Returns a factor of H, damped as in linearise(), or null. It accepts contacts between vertices that H couples.
-  [[nodiscard]] virtual NewtonCholesky* factor() { return nullptr; }
+  [[nodiscard]] NewtonCholesky* factor();
   /// Computes product = H·vector, zero on pins.
-  virtual void multiply(const Vertices& vector, Vertices& product) = 0;
+  void multiply(const Vertices& vector, Vertices& product);
   /// Computes solution ≈ H⁻¹·vector, symmetric positive definite over the free vertices, zero on pins.
-  virtual void precondition(const Vertices& vector, Vertices& solution) = 0;
+  void precondition(const Vertices& vector, Vertices& solution) { factor_.solve(vector, solution); }
   /// Returns a vertex's own stiffness in a direction at the last linearise() [N/m].
-  [[nodiscard]] virtual double stiffness(int vertex, const Eigen::Vector3d& direction) const = 0;
+  [[nodiscard]] double stiffness(int vertex, const Eigen::Vector3d& direction) const;
   /// Returns the rounding error of g at this value [J].
-  [[nodiscard]] virtual double rounding(double value) const = 0;
+  [[nodiscard]] double rounding(double value) const { return objective_.rounding(value); }
   /// Returns the estimated distance of the worst vertex from the minimum at this gradient [m].
-  [[nodiscard]] virtual double error(const Vertices& gradient) const = 0;
-};
-
-/// Objective of an implicit step. Its Hessian is Newton's without negative eigenvalues, or liu13's constant matrix.
-class ImplicitProblem final : public ContactProblem {
- public:
-  ImplicitProblem(const System& system, const StepObjective& objective, ConstantFactor& factor,
-                  ImplicitHessian hessian);
-
-  double evaluate(const Vertices& x, Vertices& gradient) override { return objective_.evaluate(x, gradient); }
-  void linearise(const Vertices& x, double concavity, double damping) override;
-  [[nodiscard]] bool exact() const override { return hessian_ == ImplicitHessian::newton; }
-  [[nodiscard]] NewtonCholesky* factor() override;
-  void multiply(const Vertices& vector, Vertices& product) override;
-  void precondition(const Vertices& vector, Vertices& solution) override { factor_.solve(vector, solution); }
-  [[nodiscard]] double stiffness(int vertex, const Eigen::Vector3d& direction) const override;
-  [[nodiscard]] double rounding(double value) const override { return objective_.rounding(value); }
-  [[nodiscard]] double error(const Vertices& gradient) const override { return objective_.error_bound(gradient); }
+  [[nodiscard]] double error(const Vertices& gradient) const { return objective_.error_bound(gradient); }
 
  private:
   const System& system_;

@@ -369,7 +369,7 @@ void BodyContacts::find(const Vertices& target, int source, const std::vector<Co
     searched_ = true;
   }
   const auto before = static_cast<std::ptrdiff_t>(contacts.size());
-  find_vertices(target, source, held, contacts);
+  find_vertices(source, held, contacts);
   const auto first = static_cast<std::ptrdiff_t>(contacts.size());
   find_pairs(source, held, contacts);
   if (entanglement_) bring_back(source, contacts);
@@ -391,7 +391,7 @@ void BodyContacts::leave_wrong_sides(std::vector<ContactConstraint>& contacts, s
   contacts.erase(std::remove_if(contacts.begin() + begin, contacts.begin() + pairs, wrong), contacts.begin() + pairs);
 }
 
-void BodyContacts::find_vertices(const Vertices&, int source, const std::vector<ContactConstraint>& held,
+void BodyContacts::find_vertices(int source, const std::vector<ContactConstraint>& held,
                                  std::vector<ContactConstraint>& contacts) {
   auto known = held.begin();
   for (int i = 0; i < cloth_count_; ++i) {
@@ -426,11 +426,10 @@ void BodyContacts::find_pairs(int source, const std::vector<ContactConstraint>& 
     const ContactKey key{source, static_cast<int>(pair.feature), pair.vertices};
     if (is_astray(pair)) continue;
     const FourPoints from = gather(x_, pair.vertices), to = gather(target_, pair.vertices);
-    const double before = std::sqrt(met.before.squared);
-    const double distance = distance_at_end(before, kept, duration_);
+    const double distance = distance_at_end(met.before, kept, duration_);
     const bool bears = is_held(held, key);
     if (!bears && kept_apart(pair.feature, from, to, distance)) continue;
-    const auto touch = find_touch({pair.feature, from, to, before}, distance, bears);
+    const auto touch = find_touch({pair.feature, from, to, met.before}, distance, bears);
     if (!touch) continue;
     ContactConstraint contact = make(pair.vertices, touch->weights, touch->normal);
     contact.key = key;

@@ -186,8 +186,7 @@ class BodyContacts final : public ContactSource {
   /// Makes the search structures; called by the first step, as many systems make none.
   void prepare();
   [[nodiscard]] bool is_clear(const Vertices& target) const;
-  void find_vertices(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
-                     std::vector<ContactConstraint>& contacts);
+  void find_vertices(int source, const std::vector<ContactConstraint>& held, std::vector<ContactConstraint>& contacts);
   void find_pairs(int source, const std::vector<ContactConstraint>& held, std::vector<ContactConstraint>& contacts);
   /// Copies the shape at the start and end of the step, in the body's own coordinates.
   void copy_shape();

@@ -174,9 +174,9 @@ class BackwardEuler final : public MinimisingScheme {
 
   bool of_the_moment_;
   EnergyBooks books_;
-  std::optional<ContactSolver> contact_;    // if the cloth can touch anything
-  std::optional<ImplicitProblem> problem_;  // of contact, created on first use
-  bool touched_ = false;                    // true if the last step had contacts
+  std::optional<ContactSolver> contact_;   // if the cloth can touch anything
+  std::optional<ContactProblem> problem_;  // of contact, created on first use
+  bool touched_ = false;                   // true if the last step had contacts
 };
 
 }  // namespace drape

@@ -234,9 +234,7 @@ TEST(RigidZones, KeepBothMomentaAndBringNoPointsNearer) {
   zones.begin(moving.velocities);
   zones.join({0, 1, 2, 3});
   zones.join({3, 4, 5, 6});
-  EXPECT_TRUE(zones.together({0, 6, 2, 4}));
-  EXPECT_FALSE(zones.together({0, 7, 2, 4}));
-  EXPECT_TRUE(zones.apply(x, moving));
+  zones.apply(x, moving);
   Point p = Point::Zero(), l = p;
   for (std::size_t i = 0; i < count; ++i) {
     const Point change = (moving.velocities[i] - before[i]) / moving.inverse_masses[i];
@@ -263,7 +261,7 @@ TEST(RigidZones, MoveWithTheirPin) {
   RigidZones zones;
   zones.begin(moving.velocities);
   zones.join({0, 1, 2, 3});
-  EXPECT_TRUE(zones.apply(x, moving));
+  zones.apply(x, moving);
   for (const Point& v : moving.velocities) EXPECT_EQ(v, Point(1, 0, 0));
 }
 
