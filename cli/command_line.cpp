@@ -332,7 +332,7 @@ constexpr std::array<Examples, 24> all_examples{{
      "study accuracy scene.toml --methods liu13,quasi-newton --tolerances 1e-2,1e-4\n"
      "study accuracy scene.toml --animate methods -o out/methods\n"},
     {"study homework", "study homework --runs 3 -o out/homework\n"},
-    {"study scaling", "study scaling --largest 40\n"},
+    {"study scaling", "study scaling --grids 20,40\n"},
     {"study stability", "study stability --per-decade 2 -o out/maps\n"},
     {"study validation",
      "study validation\n"

@@ -110,8 +110,10 @@ ExitCode run_scaling(const ScalingArguments& arguments, const CommonOptions& com
 void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<ScalingArguments>();
   CLI::App* sub = study.add_subcommand("scaling", "Measure how time and memory grow with the cloth");
-  sub->add_option("--largest", arguments->options.largest, "Cells per side of the largest grid; default 80")
-      ->check(whole_number_in({10, 10000}));
+  sub->add_option("--grids", arguments->options.grids, "Cells per side of each grid; default 10,20,40,80")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(whole_number_in({1, 10000}));
   sub->add_option("--runs", arguments->options.runs, runs_help)->check(whole_number_in({1, 1000}));
   add_study_files(*sub, arguments->files);
   sub->callback(

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@
 namespace drape {
 
 struct ScalingOptions {
-  int largest = 80;  ///< cells along a side of the largest grid
+  std::set<int> grids = {10, 20, 40, 80};  ///< cells along a side
   RunCount runs = {};
 };
 
@@ -50,7 +51,7 @@ struct ScalingStudy {
   double seconds = 0;
 };
 
-/// Measures every method on grids of 10×10, 20×20, 40×40 … cells: the homework's cloth with the sphere, k = 180 N/m.
+/// Measures every method on square grids: the homework's cloth with the sphere, k = 180 N/m.
 /// All methods start from the same state, in contact with the sphere.
 /// @returns nothing if stopped
 std::optional<ScalingStudy> study_scaling(const ScalingOptions& options, const std::stop_token& stop,

@@ -215,9 +215,9 @@ TEST(Study, OfSeveralScenesLeavesAMethodOutWhereItCannotRun) {
 
 TEST(Study, OfScalingWritesEverything) {
   const SceneFolder folder;
-  const Finished finished = drape(folder, "study scaling --largest 10 --runs 1 -o results");
+  const Finished finished = drape(folder, "study scaling --grids 10,15 --runs 1 -o results");
   expect_results(folder, finished, {"scaling-times.csv", "scaling-growth.csv", "scaling-shares.csv"},
-                 {"scaling-step", "scaling-iteration", "scaling-memory"});
+                 {"scaling-step", "scaling-vertex", "scaling-iteration", "scaling-memory"});
 }
 
 TEST(Study, OfStabilityWritesEverything) {
@@ -295,7 +295,7 @@ TEST(Study, LooksForItsFolderFirst) {
     EXPECT_NE(finished.text.find("cannot write " + output), std::string::npos) << finished.text;
   };
   for (const std::string study : {"accuracy a.toml --set time.duration=1e5 --animate none",
-                                  "scaling --largest 10000 --runs 1000", "homework --runs 1000"}) {
+                                  "scaling --grids 10000 --runs 1000", "homework --runs 1000"}) {
     expect_refusal(study, "afile");
   }
   for (const std::string output : {"afile", "afile/results", "taken", "/proc/results"}) {

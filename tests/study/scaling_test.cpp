@@ -31,10 +31,10 @@ TEST(KernelClock, MeasuresWhatAMethodDoesAndChangesNoBits) {
 
 TEST(Scaling, MeasuresEveryMethodOnEveryGrid) {
   Progress progress;
-  const auto study = study_scaling({.largest = 20, .runs = 2}, {}, progress);
+  const auto study = study_scaling({.grids = {10, 20}, .runs = 2}, {}, progress);
   ASSERT_TRUE(study);
   EXPECT_TRUE(study->notes.empty());
-  ASSERT_EQ(study->points.size(), 10U);
+  ASSERT_EQ(study->points.size(), 12U);
   for (std::size_t i = 0; i < study->points.size(); ++i) {
     const ScalingPoint& p = study->points[i];
     SCOPED_TRACE(p.method);
