@@ -234,12 +234,14 @@ namespace fs = std::filesystem;
 namespace {
 
 // Blocks as in a motion file: valid length of the growing file and the state; optionally the strain limits' restraint
-// (HELD, PULL), the stability guard's energies (BOOK) and rows in no block yet; last the times.
+// (HELD, PULL), the number of substeps to begin with (CUTS), the stability guard's energies (BOOK) and rows in no block
+// yet; last the times.
 constexpr const char* checkpoint_magic = "drape checkpoint 1\n";
 constexpr const char* length_tag = "SIZE";
 constexpr const char* books_tag = "BOOK";
 constexpr const char* held_tag = "HELD";
 constexpr const char* tensions_tag = "PULL";
+constexpr const char* substeps_tag = "CUTS";
 constexpr const char* times_tag = "TIME";
 
 std::string block(std::string_view tag, const std::string& payload) { return block_head(tag, payload) + payload; }
@@ -295,6 +297,7 @@ bool is_finite(const ResumePoint& found) {
 void read_blocks(const BlockReader& blocks, std::uint64_t begin, ResumePoint& found) {
   const MotionHeader& header = found.partial->header();
   Restraint restraint;
+  std::int64_t substeps = 0;
   while (begin < blocks.size()) {
     const Block block = blocks.block(begin);
     if (block.tag == state_tag) {
@@ -305,6 +308,8 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, ResumePoint& fo
       restraint.acceleration = vertices_of(unpack(block.payload), header.vertices);
     } else if (block.tag == tensions_tag) {
       restraint.tensions = unpack_numbers<Eigen::VectorXd>(block.payload);
+    } else if (block.tag == substeps_tag) {
+      substeps = static_cast<std::int64_t>(ByteReader(unpack(block.payload)).whole());
     } else if (block.tag == rows_tag) {
       found.rows = unpack_rows(block.payload, header);
     } else if (block.tag == times_tag) {
@@ -313,9 +318,10 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, ResumePoint& fo
     begin = block.end;
   }
   found.checkpoint.state.restraint = std::move(restraint);
+  found.checkpoint.state.substeps = substeps;
   // Rows must cover all steps from 0 on, in the growing file's blocks and in the checkpoint.
   const std::int64_t step = found.checkpoint.state.step, in_blocks = found.partial->rows();
-  const bool whole = found.checkpoint.state.x.rows() == header.vertices &&
+  const bool whole = found.checkpoint.state.x.rows() == header.vertices && substeps >= 0 &&
                      (found.rows.empty() || found.rows.front().step == in_blocks) &&
                      in_blocks + static_cast<std::int64_t>(found.rows.size()) == step + 1 &&
                      found.microseconds.size() == static_cast<std::size_t>(step) && step < header.steps;
@@ -339,6 +345,9 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
   if (const Restraint& restraint = checkpoint.state.restraint; restraint.tensions.size() > 0) {
     bytes += block(held_tag, pack(bytes_of(restraint.acceleration)));
     bytes += block(tensions_tag, pack(bytes_of(restraint.tensions)));
+  }
+  if (const std::int64_t substeps = checkpoint.state.substeps; substeps > 0) {
+    bytes += block(substeps_tag, pack(ByteWriter().whole(static_cast<std::uint64_t>(substeps)).text()));
   }
   if (const auto& books = checkpoint.books) {
     bytes +=

@@ -56,9 +56,10 @@ void require_whole(const ResumePoint& from, const Simulation& simulation) {
     if (restraint != nullptr && kept.state.step > 0) expected = *restraint;
   }
   const Restraint& restraint = kept.state.restraint;
+  const bool cut = simulation.settings().accuracy && kept.state.step > 0;
   if (kept.books.has_value() == simulation.checkpoint().books.has_value() &&
       restraint.tensions.size() == expected.tensions.size() &&
-      restraint.acceleration.rows() == expected.acceleration.rows()) {
+      restraint.acceleration.rows() == expected.acceleration.rows() && cut == (kept.state.substeps > 0)) {
     return;
   }
   throw UsageError(fmt::format("{}: cannot be resumed, because its checkpoint does not have all parts: simulate again",

@@ -12,6 +12,7 @@ std::uint64_t hash_of(const State& state) {
   };
   for (const Vertices* vertices : {&state.x, &state.v, &state.restraint.acceleration}) add(*vertices);
   add(state.restraint.tensions);
+  if (state.substeps != 0) hash.add(&state.substeps, sizeof state.substeps);
   return hash.value();
 }
 

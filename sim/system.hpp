@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -166,9 +167,11 @@ struct ColliderMotion {
 /// the registry; without effects every list is empty.
 struct System {
   const Cloth& cloth;
-  double step;                                        ///< h [s]
-  double whole_step;                                  ///< duration of an undivided step [s]
-  std::int64_t substeps = 1;                          ///< number of h in an undivided step
+  double step;                ///< h [s]
+  double whole_step;          ///< duration of an undivided step [s]
+  std::int64_t substeps = 1;  ///< number of h in an undivided step
+  /// Limit of the default tolerance of solves, as a residual acceleration [m/s²].
+  double solve_limit = std::numeric_limits<double>::infinity();
   Stop stop = {};                                     ///< for all computations with this system
   const Threads& threads;                             ///< for passes worth dividing
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< for the gravity column of the log only [m/s²]

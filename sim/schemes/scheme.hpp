@@ -35,6 +35,9 @@ class Scheme {
   /// Returns a number that is finite if all positions at the end of the last step are, if the step has found one.
   [[nodiscard]] virtual std::optional<double> size() const { return std::nullopt; }
 
+  /// Returns true if a scheme of second order has taken the last step with first order.
+  [[nodiscard]] virtual bool first_order() const { return false; }
+
   // Methods that minimise nothing return zero or nothing:
 
   /// Returns the estimated distance of the worst vertex from the exact solution of the last step [m]; see

@@ -38,6 +38,7 @@ class Sdirk2 final : public MinimisingScheme {
 
   StepReport advance(State& state, StepForces& forces) override;
   void expect(const Vertices& early, const Vertices& late) override;
+  [[nodiscard]] bool first_order() const override { return touched_; }
   [[nodiscard]] double residual() override;
   [[nodiscard]] double error() override;
   [[nodiscard]] double residual_force() override;

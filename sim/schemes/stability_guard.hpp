@@ -86,7 +86,7 @@ class ConditionGuard final : public StabilityGuard {
 };
 
 /// Guard for steps divided into substeps, see SubstepScheme; another guard gives the longest substep. No blow-up watch
-/// is needed, as two unstable motions with different substeps would disagree.
+/// is needed: the accelerations of an unstable motion change so much that its estimated error is too large.
 class SubstepGuard final : public StabilityGuard {
  public:
   /// Limit above which a motion is rejected.

@@ -14,28 +14,25 @@
 namespace drape {
 namespace {
 
-constexpr std::int64_t fewest_solved = 4;         // substeps of an implicit scheme; the companion has two
-constexpr std::int64_t solved_to_look_with = 64;  // below this number, a step takes about the same time
-constexpr std::size_t most_kept = 4;              // number of attempts
+// Least numbers of substeps: a change of the acceleration needs two, stiff springs need four of an implicit scheme.
+constexpr std::int64_t fewest_explicit = 2, fewest_solved = 4;
+constexpr double safe_share = 1.2;    // stable substeps per safe one: at the limit an oscillation's energy varies much
+constexpr std::size_t most_kept = 4;  // number of motions
 
-// Ratios of the error of the shorter substeps to the difference of the motions, and the accepted fraction of the
-// accuracy; measured in docs/notes/accuracy.md.
-constexpr double error_of_verlet = 1.0 / 3, error_of_sdirk2 = 0.7, error_of_backward_euler = 1;
-constexpr double accepted = 0.8;
-constexpr double solve_share = 0.1;  // fraction of the accuracy for the solver errors of both motions
-constexpr double most_default_errors = 10;
+// Errors per change of the acceleration and squared substep, see SubstepScheme; of a first-order substep per kick and
+// substep. Measured in docs/notes/accuracy.md.
+constexpr double error_of_verlet = 1.0 / 12, error_of_sdirk2 = 1.0 / 16, error_of_first_order = 0.5;
+// Fractions of the accuracy: the largest accepted estimate, those for which the next step keeps the number of substeps,
+// and the one for which another number is chosen.
+constexpr double accepted = 0.6, kept_from = 0.15, kept_until = 0.45, aimed = 0.35;
+constexpr double solve_share = 0.2;  // fraction of the accuracy for the solver errors
 
-/// Returns settings of both motions: the requested method with a second-order scheme.
+/// Returns settings with a second-order scheme and the default tolerance.
 IntegratorSettings of_second_order(IntegratorSettings integrator) {
   if (is_explicit(integrator.method)) integrator.method = Method::verlet;
   integrator.scheme = TimeScheme::sdirk2;
-  return integrator;
-}
-
-/// Returns settings of the longer substeps: the fastest method for long steps, as it does not affect the result.
-IntegratorSettings beside(IntegratorSettings integrator) {
-  if (!is_explicit(integrator.method)) integrator.method = Method::quasi_newton;
-  integrator.max_iterations.reset();
+  integrator.stop.reset();
+  integrator.tolerance.reset();
   return integrator;
 }
 
@@ -47,121 +44,93 @@ std::int64_t fastest_for_local_global(const System& system) {
   return static_cast<std::int64_t>(std::min<double>(count, SubstepScheme::most_substeps));
 }
 
-/// Returns the largest distance; infinite if a position is not finite.
-double largest_distance(const Vertices& a, const Vertices& b) {
-  const double distance = std::sqrt((a - b).rowwise().squaredNorm().maxCoeff());
-  return std::isfinite(distance) && std::isfinite(norm(a)) ? distance : std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
 
-/// A motion with another step length.
-struct SubstepScheme::Motion {
-  /// @param count        number of substeps in a step
-  /// @param acceleration residual acceleration allowed in a solve [m/s²]
-  Motion(const SubstepScheme& owner, std::int64_t count, IntegratorSettings integrator, const State& start)
-      : system(owner.make_system_(owner.step_ / static_cast<double>(count))), forces(system, start), state(start) {
+/// A motion through a step in equal substeps, which estimates its error.
+class SubstepScheme::Motion {
+ public:
+  /// @param count number of substeps in a step
+  Motion(const SubstepScheme& owner, std::int64_t count, const State& start)
+      : system(owner.make_system_(owner.step_ / static_cast<double>(count))),
+        forces_(system, start),
+        free_(Eigen::ArrayXd::Ones(start.x.rows())) {
     system.whole_step = owner.step_;
     system.substeps = count;
-    if (!is_explicit(integrator.method)) {
-      const double solved = Sdirk2::gamma * system.step;
-      const double usual = Accuracy(integrator, system, system.inertia(solved)).tolerance;
-      integrator.stop = StoppingRule::error;
-      integrator.tolerance = std::min(owner.acceleration_ * solved * solved, most_default_errors * usual);
-    }
-    scheme = method_type(integrator.method).make(integrator, system);
+    for (const int pin : system.cloth.pins) free_[pin] = 0;
+    system.solve_limit = owner.solve_limit_;
+    if (!is_explicit(owner.integrator_.method)) error_of_change_ = error_of_sdirk2;
+    scheme = method_type(owner.integrator_.method).make(owner.integrator_, system);
   }
   Motion(const Motion&) = delete;
   Motion& operator=(const Motion&) = delete;
 
   void begin(const State& start) {
-    state = start;
-    state.step *= system.substeps;
-    known_ = false;
-  }
-
-  /// @param early, late expected accelerations, see Scheme::expect(); or both null
-  StepReport advance(const Vertices* early, const Vertices* late) {
-    system.stop.look();
-    if (late != nullptr) scheme->expect(*early, *late);
-    const bool solves = scheme->accuracy().has_value();
-    if (solves) before_ = state.v;
-    const StepReport report = scheme->advance(state, forces);
-    ++state.step;
-    if (!solves) return report;
-    acceleration_ = (state.v - before_) / system.step;
-    known_ = true;
-    return report;
-  }
-  /// Returns the mean acceleration of the last substep, if it was implicit [m/s²]; otherwise null.
-  [[nodiscard]] const Vertices* acceleration() const { return known_ ? &acceleration_ : nullptr; }
-
-  System system;
-  StepForces forces;
-  std::unique_ptr<Scheme> scheme;
-  State state;
-
- private:
-  Vertices acceleration_, before_;
-  bool known_ = false;
-};
-
-/// Two motions through a step, with an even number of substeps and with half as many.
-class SubstepScheme::Attempt {
- public:
-  Attempt(const SubstepScheme& owner, const State& start, std::int64_t count)
-      : substeps(count),
-        shorter_(owner, count, owner.integrator_, start),
-        longer_(owner, count / 2, beside(owner.integrator_), start),
-        error_per_apart_(is_explicit(owner.integrator_.method) ? error_of_verlet : error_of_sdirk2) {
-    if (!shorter_.system.contacts.empty()) error_per_apart_ = error_of_backward_euler;
-  }
-
-  void begin(const State& start) {
-    shorter_.begin(start);
-    longer_.begin(start);
+    state_ = start;
+    state_.step *= system.substeps;
+    before_ = start.v;
+    changes_.setZero(start.v.rows());
     done_ = 0;
-    apart_ = 0;
   }
 
-  /// Advances by one of the longer substeps.
+  /// Advances by a substep.
   void advance(StepReport& report) {
-    add(shorter_.advance(shorter_.acceleration(), shorter_.acceleration()), report);
-    if (shorter_.acceleration() != nullptr) early_ = *shorter_.acceleration();
-    add(shorter_.advance(shorter_.acceleration(), shorter_.acceleration()), report);
-    add(longer_.advance(&early_, shorter_.acceleration()), report);
-    ++done_;
-    apart_ = largest_distance(shorter_.state.x, longer_.state.x);
-  }
-
-  [[nodiscard]] bool over() const { return 2 * done_ == substeps; }
-  /// Returns the error estimate so far [m].
-  [[nodiscard]] double estimate() const { return apart_ * error_per_apart_; }
-  /// Returns the estimate extrapolated linearly to the end of the step [m].
-  [[nodiscard]] double projected() const {
-    return estimate() * static_cast<double>(substeps) / static_cast<double>(2 * done_);
-  }
-  void end(State& state) const {
-    state.x = shorter_.state.x;
-    state.v = shorter_.state.v;
-    state.restraint = shorter_.state.restraint;
-  }
-  [[nodiscard]] const std::vector<std::unique_ptr<MotionFilter>>& filters() const { return shorter_.system.filters; }
-  [[nodiscard]] Scheme& scheme() const { return *shorter_.scheme; }
-
-  const std::int64_t substeps;
-
- private:
-  static void add(const StepReport& substep, StepReport& report) {
+    system.stop.look();
+    const bool solves = scheme->accuracy().has_value();
+    if (solves && done_ > 0) {
+      expected_ = kick_ / system.step;
+      scheme->expect(expected_, expected_);
+    }
+    const StepReport substep = scheme->advance(state_, forces_);
+    ++state_.step;
     report.iterations += substep.iterations;
     report.rise = std::max(report.rise, substep.rise);
+    note_kick();
+    ++done_;
   }
 
-  Motion shorter_, longer_;
-  Vertices early_;  // acceleration of the first shorter substep within a longer one [m/s²]
-  double error_per_apart_;
-  std::int64_t done_ = 0;  // number of longer substeps done
-  double apart_ = 0;       // [m]
+  [[nodiscard]] bool over() const { return done_ == system.substeps; }
+  [[nodiscard]] bool finite() const { return std::isfinite(norm(state_.x)); }
+  /// Returns the error estimate of the substeps done [m]; infinite if a velocity is not finite.
+  [[nodiscard]] double estimate() const { return over() ? projected() : estimate_so_far(); }
+  /// Returns the estimate extrapolated linearly to the end of the step [m]. There is one change less than substeps.
+  [[nodiscard]] double projected() const {
+    return estimate_so_far() * static_cast<double>(system.substeps) /
+           static_cast<double>(std::max<std::int64_t>(done_ - 1, 1));
+  }
+  void end(State& state) const {
+    state.x = state_.x;
+    state.v = state_.v;
+    state.restraint = state_.restraint;
+  }
+
+  System system;
+  std::unique_ptr<Scheme> scheme;
+
+ private:
+  [[nodiscard]] double estimate_so_far() const {
+    const double changes = (free_ * changes_).maxCoeff<Eigen::PropagateNaN>();
+    return std::isfinite(changes) ? error_of_change_ * system.step * changes : std::numeric_limits<double>::infinity();
+  }
+  /// Adds what the last substep changes in the velocities, and in their changes.
+  void note_kick() {
+    const auto length = [](const auto& of_axis) {
+      return (of_axis(0).square() + of_axis(1).square() + of_axis(2).square()).sqrt();
+    };
+    const auto kick = [&](int axis) { return (state_.v.col(axis) - before_.col(axis)).array(); };
+    if (done_ > 0) changes_ += length([&](int axis) { return kick(axis) - kick_.col(axis).array(); });
+    if (scheme->first_order()) changes_ += error_of_first_order / error_of_change_ * length(kick);
+    kick_ = state_.v - before_;
+    before_ = state_.v;
+  }
+
+  StepForces forces_;
+  State state_;
+  Eigen::ArrayXd free_;     // 0 for pins, 1 for other vertices
+  Eigen::ArrayXd changes_;  // sum of the lengths of the changes of the kicks, per vertex [m/s]
+  Vertices before_, kick_;  // velocities before the next substep, and the change in the last one [m/s]
+  Vertices expected_;       // [m/s²]
+  double error_of_change_ = error_of_verlet;
+  std::int64_t done_ = 0;  // number of substeps
 };
 
 SubstepScheme::SubstepScheme(const SimulationSettings& settings, std::int64_t fewest_stable, MakeSystem make_system)
@@ -169,77 +138,78 @@ SubstepScheme::SubstepScheme(const SimulationSettings& settings, std::int64_t fe
       accuracy_(*settings.accuracy),
       integrator_(of_second_order(settings.integrator)),
       make_system_(std::move(make_system)),
-      acceleration_(solve_share * accuracy_ / (step_ * step_)),
-      fewest_(2 * fewest_stable),
-      first_(fewest_) {
-  if (!is_explicit(integrator_.method)) {
-    fewest_ = std::max(fewest_, fewest_solved);
-    if (integrator_.method == Method::liu13) {
-      fewest_ = std::max(fewest_, fastest_for_local_global(make_system_(step_)));
-    }
-    first_ = std::max(fewest_, solved_to_look_with);
+      solve_limit_(solve_share * accuracy_ / (step_ * step_)),
+      fewest_(fewest_stable) {
+  if (is_explicit(integrator_.method)) {
+    fewest_ =
+        std::max(fewest_explicit, static_cast<std::int64_t>(std::ceil(safe_share * static_cast<double>(fewest_))));
+  } else {
+    fewest_ = std::max(fewest_solved, fewest_);
+  }
+  if (integrator_.method == Method::liu13) {
+    fewest_ = std::max(fewest_, fastest_for_local_global(make_system_(step_)));
   }
   most_ = worthwhile(std::max(most_substeps, fewest_));
   fewest_ = worthwhile(fewest_);
-  first_ = worthwhile(first_);
-  attempt(first_, {.x = settings.cloth.positions, .v = settings.cloth.velocities, .step = 0});
+  motion(fewest_, {.x = settings.cloth.positions, .v = settings.cloth.velocities, .step = 0});
 }
 
 SubstepScheme::~SubstepScheme() = default;
 
-SubstepScheme::Attempt& SubstepScheme::attempt(std::int64_t substeps, const State& start) {
-  auto found = std::ranges::find(attempts_, substeps, [](const auto& kept) { return kept->substeps; });
-  if (found == attempts_.end()) {
-    if (attempts_.size() == most_kept) attempts_.pop_back();
-    found = attempts_.insert(attempts_.end(), std::make_unique<Attempt>(*this, start, substeps));
+SubstepScheme::Motion& SubstepScheme::motion(std::int64_t substeps, const State& start) {
+  auto found = std::ranges::find(motions_, substeps, [](const auto& kept) { return kept->system.substeps; });
+  if (found == motions_.end()) {
+    if (motions_.size() == most_kept) motions_.pop_back();
+    found = motions_.insert(motions_.end(), std::make_unique<Motion>(*this, substeps, start));
   }
-  std::rotate(attempts_.begin(), found, found + 1);
-  return *attempts_.front();
+  std::rotate(motions_.begin(), found, found + 1);
+  return *motions_.front();
 }
 
 std::int64_t SubstepScheme::worthwhile(std::int64_t substeps) const {
-  if (is_explicit(integrator_.method)) return substeps + substeps % 2;
+  if (is_explicit(integrator_.method)) return substeps;
   const auto power = static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(substeps)));
   return substeps <= power / 4 * 3 && power >= 8 ? power / 4 * 3 : power;
 }
 
 std::int64_t SubstepScheme::substeps_for(double estimate, std::int64_t substeps) const {
   if (!std::isfinite(estimate)) return std::min(2 * substeps, most_);
-  const double more = std::sqrt(estimate / (accepted * accuracy_));
-  const double wanted = std::ceil(static_cast<double>(substeps) * more);
+  const double wanted = std::ceil(static_cast<double>(substeps) * std::sqrt(estimate / (aimed * accuracy_)));
   if (wanted >= static_cast<double>(most_)) return most_;
   return worthwhile(std::max(static_cast<std::int64_t>(wanted), fewest_));
 }
 
-StepReport SubstepScheme::advance(State& state, StepForces& /*forces*/) {
-  StepReport report;
-  Attempt* now = &attempt(first_, state);
-  now->begin(state);
-  now->advance(report);
-  for (std::int64_t next = substeps_for(now->projected(), first_);;) {
-    if (next != now->substeps) {
-      now = &attempt(next, state);
-      now->begin(state);
-    }
-    const auto holds = [&] { return now->estimate() <= accepted * accuracy_; };
-    // More substeps would not make a non-finite estimate finite.
-    while (!now->over() && (holds() || (next == most_ && std::isfinite(now->estimate())))) now->advance(report);
-    report.converged = holds();
-    if (report.converged || next == most_) break;
-    const std::int64_t least = worthwhile(next + next / 3);
-    next = std::min(most_, std::max(least, substeps_for(now->projected(), next)));
-  }
-  now->end(state);
-  for (const auto& filter : now->filters()) report.converged = report.converged && filter->converged();
-  report.substeps = now->substeps;
-  report.estimate = now->estimate();
-  return report;
+std::int64_t SubstepScheme::next_substeps(double estimate, std::int64_t substeps) const {
+  const bool kept = estimate >= kept_from * accuracy_ && estimate <= kept_until * accuracy_;
+  return kept ? substeps : std::max(substeps_for(estimate, substeps), worthwhile(substeps / 2));
 }
 
-double SubstepScheme::residual() { return attempts_.front()->scheme().residual(); }
-double SubstepScheme::error() { return attempts_.front()->scheme().error(); }
-double SubstepScheme::residual_force() { return attempts_.front()->scheme().residual_force(); }
-std::optional<Accuracy> SubstepScheme::accuracy() const { return attempts_.front()->scheme().accuracy(); }
+StepReport SubstepScheme::advance(State& state, StepForces& /*forces*/) {
+  StepReport report;
+  for (std::int64_t count = std::clamp(state.substeps, fewest_, most_);;) {
+    Motion& now = motion(count, state);
+    now.begin(state);
+    const auto holds = [&] { return now.estimate() <= accepted * accuracy_; };
+    // More substeps would not make non-finite positions finite.
+    while (!now.over() && (holds() || (count == most_ && now.finite()))) now.advance(report);
+    report.converged = holds();
+    report.substeps = count;
+    if (report.converged || count == most_) {
+      report.estimate = now.estimate();
+      now.end(state);
+      for (const auto& filter : now.system.filters) report.converged = report.converged && filter->converged();
+      state.substeps = next_substeps(*report.estimate, count);
+      return report;
+    }
+    const std::int64_t least = worthwhile(count + count / 3);
+    count = std::min(most_, std::max(least, substeps_for(now.projected(), count)));
+  }
+}
+
+double SubstepScheme::residual() { return motions_.front()->scheme->residual(); }
+double SubstepScheme::error() { return motions_.front()->scheme->error(); }
+double SubstepScheme::residual_force() { return motions_.front()->scheme->residual_force(); }
+std::optional<Accuracy> SubstepScheme::accuracy() const { return motions_.front()->scheme->accuracy(); }
 
 StepReport DividedStep::advance(State& state, StepForces& forces) {
   StepReport report;

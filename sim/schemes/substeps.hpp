@@ -12,28 +12,26 @@
 
 namespace drape {
 
-/// A second-order scheme that divides each step into equal substeps. It uses the smallest number it finds for which no
-/// vertex ends further than the accuracy from the solution without time-stepping and solver errors. The scheme is
-/// velocity Verlet for explicit methods, and SDIRK2 for implicit ones.
+/// A second-order scheme that divides each step into equal substeps, such that no vertex ends further than the accuracy
+/// from the solution without time-stepping and solver errors. The scheme is velocity Verlet for explicit methods, and
+/// SDIRK2 for implicit ones.
 ///
-/// **Error estimate**: a companion motion uses the same scheme with half as many substeps. If implicit, it is solved by
-/// quasi-Newton, the fastest method for long steps. With order p the two differ by 2^p − 1 times the error of the
-/// shorter substeps: three times for Verlet. SDIRK2 has an order between 2 and 1 for stiff springs; 1/0.7 is used. A
-/// step is accepted below four fifths of the accuracy. Both motions advance together, so that an attempt stops once
-/// they differ too much.
+/// **Error estimate**: c·h²·Σ‖aₖ₊₁ − aₖ‖ of the worst vertex, with the mean acceleration aₖ of substep k of h seconds.
+/// A substep of Verlet errs by h³/12·a' in x. So c = 1/12 for a force that changes steadily, and half of that for an
+/// oscillation, whose phase errs by (ωh)²/24 of ωt. SDIRK2 has 0.0404 (3γ² − 2γ³ − 1/6) in place of 1/24; c is 1/16,
+/// which covers stiff springs that it damps. A substep of first order (contact) adds h²/2·‖aₖ‖. No force is evaluated
+/// for the estimate. A step is accepted below 0.6 of the accuracy; an attempt ends once it is above.
 ///
-/// **Number of substeps**: even, and determined by the state alone. A trial of two of the shorter substeps gives the
-/// initial number from the error per time. If that is not accurate enough, the difference so far gives the next number.
-/// Implicit schemes use 4, 6, 8, 12, 16 … to reuse factors; fewer do not resolve stiff springs. The cap is 4096
-/// substeps. A step that needs more ends with these and has not converged. liu13 starts with more than needed if
-/// shorter substeps are cheaper.
+/// **Number of substeps**: at least two (implicit: four, for stiff springs), and 1.2 times as many as stability
+/// requires. State::substeps holds the number for the next step: the last one while its estimate is between 0.15 and
+/// 0.45 of the accuracy, otherwise the one for 0.35, at least half the last. Implicit schemes use 4, 6, 8, 12, 16 … to
+/// reuse factors. The cap is 4096 substeps. A step that needs more ends with these and has not converged. liu13 uses
+/// more than needed if shorter substeps are cheaper.
 ///
-/// **Solver tolerance**: a constant residual force r on a vertex moves it by r/m·h²/2 in the step for any number of
-/// substeps. Each solve may use a twentieth of the accuracy for that, up to ten times 0.3 % of the weight. Without this
-/// limit short steps would hardly be solved at all.
+/// **Solver tolerance**: the default one, about a tenth of a substep's own error. A constant residual force r on a
+/// vertex moves it by r/m·h²/2 in the step for any number of substeps; the limit is a tenth of the accuracy.
 ///
-/// Initial guesses follow the last acceleration; those of the longer substeps follow the accelerations of the shorter
-/// ones. This saves half of the iterations.
+/// Initial guesses follow the last acceleration, which saves iterations.
 ///
 /// A substep is a step of its own system: pins, colliders, corrections and filters act as in a step. The set of pinned
 /// vertices is constant during a step.
@@ -61,23 +59,23 @@ class SubstepScheme final : public Scheme {
   [[nodiscard]] std::optional<Accuracy> accuracy() const override;
 
  private:
-  struct Motion;
-  class Attempt;
+  class Motion;
 
-  /// Returns the attempt with this number of substeps. Recent ones are kept, as each has its own factors.
-  Attempt& attempt(std::int64_t substeps, const State& start);
+  /// Returns the motion with this number of substeps. Recent ones are kept, as each has its own factors.
+  Motion& motion(std::int64_t substeps, const State& start);
   /// Returns the next number of substeps to try, at least `substeps`.
   [[nodiscard]] std::int64_t worthwhile(std::int64_t substeps) const;
-  /// Returns the number of substeps to continue with, from the estimate for another number.
+  /// Returns the number of substeps to aim at, from the estimate for another number.
   [[nodiscard]] std::int64_t substeps_for(double estimate, std::int64_t substeps) const;
+  /// Returns the number of substeps to begin the next step with, from the estimate of the last one.
+  [[nodiscard]] std::int64_t next_substeps(double estimate, std::int64_t substeps) const;
 
   double step_, accuracy_;  // [s], [m]
   IntegratorSettings integrator_;
   MakeSystem make_system_;
-  double acceleration_;  // residual acceleration allowed in a solve [m/s²]
-  // Numbers of substeps of the shorter motion: limits, and for the first trial.
-  std::int64_t fewest_, most_ = 0, first_ = 0;
-  std::deque<std::unique_ptr<Attempt>> attempts_;  // most recently used first
+  double solve_limit_;                           // residual acceleration of a solve [m/s²]
+  std::int64_t fewest_, most_ = 0;               // limits of the number of substeps
+  std::deque<std::unique_ptr<Motion>> motions_;  // most recently used first
 };
 
 /// An explicit scheme that divides each step into equal substeps: System::substeps of System::step seconds. A substep

@@ -72,8 +72,9 @@ Accuracy::Accuracy(const IntegratorSettings& settings, const System& system, con
     : rule(rule_of(settings)),
       tolerance(settings.tolerance.value_or(customary)),
       usual(!settings.tolerance && rule == StoppingRule::error),
-      order(order_of({settings.method, settings.scheme})) {
-  if (!settings.tolerance && rule == StoppingRule::error) tolerance = default_error(system, inertia);
+      order(order_of({settings.method, settings.scheme})),
+      limit(system.solve_limit * system.cloth.masses[0] / inertia[0]) {
+  if (usual) tolerance = std::min(default_error(system, inertia), limit);
 }
 
 double Accuracy::tolerance_at(const StepObjective& objective, const Vertices& x, double start_error) const {
@@ -81,7 +82,7 @@ double Accuracy::tolerance_at(const StepObjective& objective, const Vertices& x,
   const auto [whole, by_forces] = objective.longest_way(x);
   const double changed = start_error < by_forces ? std::pow(start_error / by_forces, order) : 1;
   const double of_scheme = share_of_forces.at(static_cast<std::size_t>(order - 1)) * changed * by_forces;
-  return std::max(std::min(of_scheme, share_of_way * whole), objective.error_rounding());
+  return std::max(std::min({of_scheme, share_of_way * whole, limit}), objective.error_rounding());
 }
 
 }  // namespace drape

@@ -70,6 +70,24 @@ TEST(LargeGrid, TakesSubstepsAtOnceWithTheBitsOfSingleSubsteps) {
   }
 }
 
+TEST(LargeGrid, CutsStepsForAnAccuracyAlikeWithAnyNumberOfThreads) {
+  for (const Method method : {Method::verlet, Method::quasi_newton}) {
+    SimulationSettings settings;
+    settings.cloth = cloth_of(make_grid(92, 92), 1, 10, {0, 92});
+    settings.step = 0.005;
+    settings.integrator.method = method;
+    settings.accuracy = 1e-4;
+    settings.effects = {Gravity{}};
+    settings.threads = 1;
+    Simulation alone(settings);
+    settings.threads = 3;
+    Simulation together(settings);
+    EXPECT_EQ(alone.step().substeps, together.step().substeps);
+    expect_same_bits(alone.state(), together.state());
+    EXPECT_EQ(hash_of(alone.state()), hash_of(together.state()));
+  }
+}
+
 TEST_P(Determinism, SimulationsThatTakeTurnsDoNotDisturbEachOther) {
   const SimulationSettings settings = scene(GetParam());
   SimulationSettings stiffer = settings;

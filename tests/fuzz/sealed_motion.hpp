@@ -62,10 +62,12 @@ struct SealedMotion {
       if (step != 4) continue;
       last.books = EnergyMemory{1, state.x, 2};
       state.restraint = {.acceleration = state.v, .tensions = Eigen::VectorXd::Ones(5)};
+      state.substeps = 6;
       writer.keep(last, std::vector<float>(4, 10.0F));
       growing = folder.content("made.drape.partial");
       checkpoint = folder.content("made.drape.checkpoint");
       state.restraint = {};
+      state.substeps = 0;
     }
     writer.finish();
     complete = folder.content("made.drape");

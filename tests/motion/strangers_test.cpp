@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -230,6 +231,20 @@ TEST_F(StrangersCheckpoint, IsRefusedWherePartsAreMissingOrEmpty) {
     if (!rows) empty.blocks[k].head.clear();
     expect_refused(partial_, empty.sealed(), good.blocks[k].tag == "PULL" ? "m.drape.partial" : "m.drape.checkpoint");
   }
+}
+
+TEST_F(StrangersCheckpoint, HasTheNumberOfSubstepsOfAnAccuracy) {
+  const Scene scene = folder_.load(recorded_scene, {"time.accuracy=1e-5"});
+  std::filesystem::remove(folder_.path("m.drape.partial"));
+  std::filesystem::remove(folder_.path("m.drape.checkpoint"));
+  record(scene, folder_.path("m.drape"), {}, 12);
+  partial_ = content(folder_.path("m.drape.partial"));
+  const OpenedBlocks good(content(folder_.path("m.drape.checkpoint")));
+  const auto cuts = std::ranges::find(good.blocks, std::string("CUTS"), [](const auto& block) { return block.tag; });
+  ASSERT_NE(cuts, good.blocks.end());
+  OpenedBlocks without = good;
+  without.blocks.erase(without.blocks.begin() + (cuts - good.blocks.begin()));
+  expect_refused(partial_, without.sealed(), "m.drape.partial");
 }
 
 TEST_F(StrangersCheckpoint, IsNotGoneOnFromWhereTheMotionIsDamaged) {

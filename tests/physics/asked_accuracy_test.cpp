@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "drape/sim/effects/moving_pins.hpp"
@@ -136,14 +137,14 @@ TEST_P(AskedAccuracy, AClothFallsWithoutError) {
 }
 
 // A constant residual force in every substep of h/n moves a vertex by its tolerance·n²/2 in the step.
-TEST_P(AskedAccuracy, TheSolvesLeaveOutATwentiethOfItAtMost) {
+TEST_P(AskedAccuracy, TheSolvesLeaveOutATenthOfItAtMost) {
   if (GetParam().is_explicit()) GTEST_SKIP() << "nothing is solved";
   for (const double accuracy : {1e-3, 1e-5, 1e-7}) {
     Simulation simulation(swinging(GetParam(), accuracy));
     const StepReport report = simulation.step();
     const double tolerance = simulation.accuracy().value().tolerance, n = static_cast<double>(report.substeps);
     const double solved = 1 - std::sqrt(0.5);  // part of a substep solved at once: SDIRK2's stages
-    EXPECT_LE(tolerance * n * n / (2 * solved * solved), 0.05 * accuracy * (1 + 1e-9)) << accuracy;
+    EXPECT_LE(tolerance * n * n / (2 * solved * solved), 0.1 * accuracy * (1 + 1e-9)) << accuracy;
   }
 }
 
@@ -161,28 +162,44 @@ TEST_P(AskedAccuracy, AtTheCapAStepSaysThatItHasNotConverged) {
   EXPECT_GT(report.estimate, 1e-25);
 }
 
-class AskedOfEuler : public testing::TestWithParam<NamedMethod> {};
-INSTANTIATE_TEST_SUITE_P(With, AskedOfEuler, testing::ValuesIn(implicit_methods), method_name);
-
-/// Least number of evaluations of g in a motion: one per iteration, one per start of a substep, and three for a default
-/// step's possible starts. Error: distance of its end from the reference.
+/// Least number of evaluations of the forces or of g in a motion: one per substep of an explicit method, in all
+/// attempts; otherwise one per iteration, one per start of a substep, and three for a default step's possible starts.
+/// Error: distance of its end from the reference.
 struct Work {
   double evaluations, error;
 };
 
 Work work_of(const SimulationSettings& settings, double time, const Vertices& reference) {
-  Simulation simulation(settings);
+  std::int64_t looks = 0;  // one in every step, and in every substep of an explicit method
+  Simulation simulation(settings, Timing::none, Stop([&] {
+                          ++looks;
+                          return false;
+                        }));
   Work work{0, 0};
   for (auto left = std::llround(time / settings.step); left > 0; --left) {
     const StepReport report = simulation.step();
     work.evaluations += report.iterations + (settings.accuracy ? static_cast<double>(report.substeps) : 3);
   }
+  if (is_explicit(settings.integrator.method)) work.evaluations = static_cast<double>(looks);
   work.error = largest(simulation.state().x, reference);
   return work;
 }
 
+/// Returns the work of fixed steps of h and its halves, from the longest that the method may take.
+std::vector<Work> work_of_fixed_steps(const NamedMethod& method, double time, const Vertices& reference) {
+  std::vector<Work> fixed;
+  for (int halvings = 0; halvings <= 7; ++halvings) {
+    SimulationSettings settings = swinging(method, 1);
+    settings.accuracy.reset();
+    settings.step = std::ldexp(h, -halvings);
+    if (method.is_explicit() && settings.step > safe_step(make_system(settings))) continue;
+    fixed.push_back(work_of(settings, time, reference));
+  }
+  return fixed;
+}
+
 // A manual search finds a point on the line through fixed steps that are halved repeatedly.
-TEST_P(AskedOfEuler, AtEqualErrorItTakesAtMostHalfAsManyEvaluationsAgainAsTheBestFixedStep) {
+TEST_P(AskedAccuracy, AtEqualErrorItTakesAtMostHalfAsManyEvaluationsAgainAsTheBestFixedStep) {
   constexpr double time = 15 * h;
   SimulationSettings exact = swinging(Method::verlet, 1);
   exact.accuracy.reset();
@@ -190,13 +207,7 @@ TEST_P(AskedOfEuler, AtEqualErrorItTakesAtMostHalfAsManyEvaluationsAgainAsTheBes
   Simulation small(exact);
   for (int i = 0; i < 512 * 15; ++i) small.step();
   const Vertices reference = small.state().x;
-  std::vector<Work> fixed;
-  for (int halvings = 0; halvings <= 7; ++halvings) {
-    SimulationSettings settings = swinging(GetParam(), 1);
-    settings.accuracy.reset();
-    settings.step = std::ldexp(h, -halvings);
-    fixed.push_back(work_of(settings, time, reference));
-  }
+  const std::vector<Work> fixed = work_of_fixed_steps(GetParam(), time, reference);
   for (const double accuracy : {1e-2, 1e-3, 1e-4}) {
     const Work asked = work_of(swinging(GetParam(), accuracy), time, reference);
     double best = INFINITY;
@@ -206,6 +217,10 @@ TEST_P(AskedOfEuler, AtEqualErrorItTakesAtMostHalfAsManyEvaluationsAgainAsTheBes
       const double part = std::log(fixed[i].error / asked.error) / std::log(fixed[i].error / fixed[i + 1].error);
       const double more = fixed[i + 1].evaluations / fixed[i].evaluations;
       best = std::min(best, fixed[i].evaluations * std::pow(more, part));
+    }
+    // A first-order method may not reach that error at all.
+    if (GetParam().second_order()) {
+      EXPECT_LT(best, INFINITY);
     }
     EXPECT_LE(asked.evaluations, 1.5 * best) << "accuracy " << accuracy << ", error " << asked.error;
   }
@@ -221,11 +236,31 @@ TEST_P(AskedExplicitly, AStepBeyondTheSafeOneRuns) {
   Simulation simulation(settings);
   for (int i = 0; i < 10; ++i) {
     const StepReport report = simulation.step();
-    EXPECT_LE(2 * h / static_cast<double>(report.substeps), safe);  // the companion steps are twice as long
+    EXPECT_LE(h / static_cast<double>(report.substeps), safe);
     EXPECT_TRUE(report.converged);
   }
   settings.accuracy.reset();
   EXPECT_THROW(Simulation{settings}, UsageError);
+}
+
+// The number of substeps that a step needs changes slowly, so few attempts fail if a step begins with the last number.
+TEST_P(AskedExplicitly, TheNumberOfSubstepsInTheStateSavesWork) {
+  const auto substeps_done = [](bool forgotten) {
+    std::int64_t looks = 0;
+    Simulation simulation(swinging(GetParam(), 1e-5), Timing::none, Stop([&] {
+                            ++looks;
+                            return false;
+                          }));
+    for (int i = 0; i < 15; ++i) {
+      simulation.step();
+      State state = simulation.state();
+      EXPECT_GT(state.substeps, 0);
+      if (forgotten) state.substeps = 0;
+      simulation.restore(state);
+    }
+    return looks;
+  };
+  EXPECT_LT(static_cast<double>(substeps_done(false)), 0.9 * static_cast<double>(substeps_done(true)));
 }
 
 double energy_of(const Simulation& simulation) {

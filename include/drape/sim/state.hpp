@@ -52,6 +52,8 @@ struct State {
   /// From the last step, as an initial guess for the next: for the implicit solve, and for the limits. It influences
   /// the rest of the motion only within the tolerances of both.
   Restraint restraint = {};
+  /// With an accuracy, number of substeps to begin the next step with; 0: none known.
+  std::int64_t substeps = 0;
 };
 
 /// Returns a hash of all bits of a state. Two runs with the same hash agree from there on. Not cryptographic.

@@ -22,7 +22,8 @@ struct Accuracy {
   /// True if neither rule nor tolerance is given; `tolerance` is then 0.3 % of the largest displacement by external
   /// forces in a step, at most 10⁻⁴ of the cloth's size: the least tolerance, used before a step is known.
   bool usual;
-  int order;  ///< order p of the scheme
+  int order;     ///< order p of the scheme
+  double limit;  ///< largest default tolerance, from System::solve_limit [m]
 
   /// @param inertia of every vertex in a step, m/h² [N/m]
   Accuracy(const IntegratorSettings& settings, const System& system, const Eigen::VectorXd& inertia);
