@@ -70,6 +70,7 @@ class SubstepScheme::Motion {
     before_ = start.v;
     changes_.setZero(start.v.rows());
     done_ = 0;
+    solved_ = true;
   }
 
   /// Advances by a substep.
@@ -84,11 +85,15 @@ class SubstepScheme::Motion {
     ++state_.step;
     report.iterations += substep.iterations;
     report.rise = std::max(report.rise, substep.rise);
+    solved_ = solved_ && substep.converged;
+    for (const auto& filter : system.filters) solved_ = solved_ && filter->converged();
     note_kick();
     ++done_;
   }
 
   [[nodiscard]] bool over() const { return done_ == system.substeps; }
+  /// Returns true if the solves of all substeps have converged, those of the filters as well.
+  [[nodiscard]] bool solved() const { return solved_; }
   [[nodiscard]] bool finite() const { return std::isfinite(norm(state_.x)); }
   /// Returns the error estimate of the substeps done [m]; infinite if a velocity is not finite.
   [[nodiscard]] double estimate() const { return over() ? projected() : estimate_so_far(); }
@@ -131,6 +136,7 @@ class SubstepScheme::Motion {
   Vertices expected_;       // [m/s²]
   double error_of_change_ = error_of_verlet;
   std::int64_t done_ = 0;  // number of substeps
+  bool solved_ = true;
 };
 
 SubstepScheme::SubstepScheme(const SimulationSettings& settings, std::int64_t fewest_stable, MakeSystem make_system)
@@ -192,12 +198,11 @@ StepReport SubstepScheme::advance(State& state, StepForces& /*forces*/) {
     const auto holds = [&] { return now.estimate() <= accepted * accuracy_; };
     // More substeps would not make non-finite positions finite.
     while (!now.over() && (holds() || (count == most_ && now.finite()))) now.advance(report);
-    report.converged = holds();
-    report.substeps = count;
-    if (report.converged || count == most_) {
+    if (holds() || count == most_) {
+      report.converged = holds() && now.solved();
+      report.substeps = count;
       report.estimate = now.estimate();
       now.end(state);
-      for (const auto& filter : now.system.filters) report.converged = report.converged && filter->converged();
       state.substeps = next_substeps(*report.estimate, count);
       return report;
     }
