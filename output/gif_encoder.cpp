@@ -8,11 +8,9 @@
 
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
-#include "output/codecs/codecs.hpp"
 #include "output/gif/film_writer.hpp"
 #include "output/gif/palette.hpp"
 #include "output/png_encoder.hpp"
-#include "output/video_encoder.hpp"
 
 namespace drape {
 namespace {
@@ -34,9 +32,7 @@ double gif_rate(const std::filesystem::path& file, double fps) {
 }  // namespace
 
 GifEncoder::GifEncoder(const std::filesystem::path& file, double fps, std::function<void(int, int)> progress)
-    : fps_(gif_rate(file, fps)), file_(file), progress_(std::move(progress)), spool_(file_) {
-  codecs();  // finish() reads the file back: missing codecs are reported now
-}
+    : fps_(gif_rate(file, fps)), file_(file), progress_(std::move(progress)), spool_(file_) {}
 
 std::int64_t GifEncoder::start(int frame) const { return std::llround(frame * 100.0 / fps_); }
 
@@ -48,7 +44,6 @@ void GifEncoder::add(const Image& image) {
 std::vector<OutputFile> GifEncoder::finish(Ending ending) {
   if (spool_.count() == 0) return {};
   encode();
-  require_frames(file_, spool_.count());
   const std::uintmax_t size = file_.commit(ending);
   return {{file_.name(ending), size}};
 }
@@ -71,7 +66,7 @@ OutputFormat gif_format() {
   return {.extension = ".gif",
           .help = "looping animation, at most 50 frames per second",
           .made_by = {},
-          .packages = "libopencv-dev",  // reads the file back
+          .packages = {},
           .make = FilmMaker<Image>([](const std::filesystem::path& file, const FilmInfo& film) {
             return std::make_unique<GifEncoder>(file, film.fps, film.progress);
           })};

@@ -73,10 +73,10 @@ OutputFormat mp4_format();
 OutputFormat webm_format();
 OutputFormat avi_format();
 
-/// Counts the frames that a player can read from a video or GIF.
+/// Counts the frames that a player can read from a video.
 int readable_frames(const PartialFile& file);
 
-/// Opens a finished video or GIF as a player would, and decodes all of it.
+/// Opens a finished video as a player would, and decodes all of it.
 /// @throws OutputError if it does not have this many frames: with the system's reason if known, such as a full disk
 void require_frames(PartialFile& file, int count);
 
