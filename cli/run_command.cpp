@@ -156,37 +156,32 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
   return all;
 }
 
-/// Runs the scenes in sequence. While the films of one are completed, which may need another single-core pass over all
-/// frames, the next is drawn. Messages keep the order of the scenes. A failed scene does not stop later ones.
+/// Runs the scenes in sequence. While a film is made, the next one is as well: a single film leaves processors idle
+/// during its simulation, which precedes the drawing, and while its file is completed. Messages keep the order of the
+/// scenes. A failed scene does not stop later ones.
 /// @returns the highest of their codes
 ExitCode run_each(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options,
                   const RunArguments& arguments, const CommonOptions& common) {
   ExitCode worst = ExitCode::ok;
-  std::unique_ptr<SceneRun> last;
-  const auto end_last = [&] {
-    if (last) worst = std::max(worst, reported([&] { return last->end(); }));
-    last.reset();
-  };
+  std::unique_ptr<SceneRun> run, next;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    if (i > 0 && interruption().stop_requested()) {
-      end_last();
+    run = std::move(next);
+    if (!run && i > 0 && interruption().stop_requested()) {
       if (worst != ExitCode::interrupted) spdlog::error("interrupted before {}", shown(scenes[i].file));
       return ExitCode::interrupted;
     }
-    auto next = std::make_unique<SceneRun>(scenes[i], options[i], arguments, common);
-    const ExitCode begun = reported([&] {
-      if (last) next->begin();
-      end_last();
-      next->announce();
-      next->begin();
-      next->wait_until_drawn();
-      return ExitCode::ok;
-    });
-    worst = std::max(worst, begun);
-    if (begun == ExitCode::ok) last = std::move(next);
-    if (arguments.step_by_step) end_last();
+    worst = std::max(worst, reported([&] {
+                       if (!run) run = std::make_unique<SceneRun>(scenes[i], options[i], arguments, common);
+                       run->announce();
+                       run->begin();
+                       if (!arguments.step_by_step && i + 1 < scenes.size() && needs_drawing(options[i]) &&
+                           needs_drawing(options[i + 1]) && !interruption().stop_requested()) {
+                         next = std::make_unique<SceneRun>(scenes[i + 1], options[i + 1], arguments, common);
+                         next->begin();
+                       }
+                       return run->end();
+                     }));
   }
-  end_last();
   return worst;
 }
 

@@ -245,8 +245,7 @@ void SceneRun::announce() const {
 
 void SceneRun::begin() {
   if (work_) return;
-  work_.emplace([this](const std::stop_token& stop, Progress& progress, const std::function<void()>& drawn) {
-    options_.drawn = drawn;
+  work_.emplace([this](const std::stop_token& stop, Progress& progress) {
     result_ = run_scene(scene_, options_, stop, progress);
   });
 }

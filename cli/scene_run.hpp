@@ -62,9 +62,6 @@ class SceneRun {
   /// Starts the run if it is not yet started.
   void begin();
 
-  /// Shows progress until every frame is drawn; the outputs may still need completion.
-  void wait_until_drawn() { work_->wait_until_single_core(quiet_); }
-
   /// Shows progress until the end, then prints the result.
   /// @throws errors of run_scene()
   ExitCode end();

@@ -138,12 +138,13 @@ void ProgressDisplay::update() {
   if (stage != stage_) {
     stage_ = stage;
     stage_begin_ = now;
+    done_before_ = done;
   }
   const auto interval = std::max<Clock::duration>(line_interval, (now - begin_) / lines_in_all);
   if (style_ == Style::lines && now - last_line_ < interval) return;
 
   const double seconds = std::chrono::duration<double>(now - stage_begin_).count();
-  const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
+  const double rate = seconds > 0 ? static_cast<double>(done - done_before_) / seconds : 0;
   std::string text = fmt::format("{} {}/{} {}", stage, done, total, progress_.unit.load());
   if (rate > 0) {
     text +=
@@ -214,36 +215,18 @@ constexpr std::chrono::milliseconds display_interval{100};
 }  // namespace
 
 BackgroundWork::BackgroundWork(const Work& work) {
-  done_ = std::async(std::launch::async, [this, work] {
-    bool told = false;
-    const auto tell = [&] {
-      if (!std::exchange(told, true)) told_.set_value();
-    };
-    try {
-      work(interruption().get_token(), progress_, tell);
-    } catch (...) {
-      tell();
-      throw;
-    }
-    tell();
-  });
+  done_ = std::async(std::launch::async, [this, work] { work(interruption().get_token(), progress_); });
 }
 
 void BackgroundWork::watch_to_its_end(bool quiet) {
-  watch(quiet, done_);
+  ProgressDisplay display(progress_, ProgressDisplay::fitting_style(quiet));
+  while (done_.wait_for(display_interval) != std::future_status::ready) display.update();
+  display.clear();
   done_.get();
 }
 
-void BackgroundWork::watch(bool quiet, const std::future<void>& until) {
-  ProgressDisplay display(progress_, ProgressDisplay::fitting_style(quiet));
-  while (until.wait_for(display_interval) != std::future_status::ready) display.update();
-  display.clear();
-}
-
-bool run_watched(bool quiet, const std::function<void(const std::stop_token&, Progress&)>& work) {
-  BackgroundWork([&work](const std::stop_token& stop, Progress& progress, const auto&) {
-    work(stop, progress);
-  }).watch_to_its_end(quiet);
+bool run_watched(bool quiet, const BackgroundWork::Work& work) {
+  BackgroundWork(work).watch_to_its_end(quiet);
   return interruption().get_token().stop_requested();
 }
 

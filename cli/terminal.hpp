@@ -65,6 +65,7 @@ class ProgressDisplay {
   const Progress& progress_;
   Style style_;
   const char* stage_ = nullptr;
+  std::int64_t done_before_ = 0;  // done when the stage was first seen
   Clock::time_point begin_ = Clock::now(), stage_begin_, last_line_ = begin_;
 };
 
@@ -76,26 +77,18 @@ std::stop_source& interruption();
 /// Work on its own thread; the calling thread shows its progress. The token is that of interruption().
 class BackgroundWork {
  public:
-  /// @param let_others_begin called at most once, when the rest needs only one core
-  using Work = std::function<void(const std::stop_token&, Progress&, const std::function<void()>& let_others_begin)>;
+  using Work = std::function<void(const std::stop_token&, Progress&)>;
 
   /// Starts the work.
   explicit BackgroundWork(const Work& work);
 
-  /// Shows progress until others may begin, at the latest until the end.
-  /// @param quiet show no progress
-  void wait_until_single_core(bool quiet) { watch(quiet, others_may_begin_); }
-
   /// Shows progress until the end.
+  /// @param quiet show no progress
   /// @throws errors of the work
   void watch_to_its_end(bool quiet);
 
  private:
-  void watch(bool quiet, const std::future<void>& until);
-
   Progress progress_;
-  std::promise<void> told_;
-  std::future<void> others_may_begin_ = told_.get_future();
   std::future<void> done_;  // last member: its destructor waits, and the others are still needed
 };
 
@@ -103,6 +96,6 @@ class BackgroundWork {
 /// @param quiet show no progress
 /// @returns true if interrupted
 /// @throws errors of the work
-bool run_watched(bool quiet, const std::function<void(const std::stop_token&, Progress&)>& work);
+bool run_watched(bool quiet, const BackgroundWork::Work& work);
 
 }  // namespace drape

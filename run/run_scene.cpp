@@ -376,7 +376,6 @@ class Pipeline {
       progress_.done = ++result_.frames;
     }
     if (const std::scoped_lock lock(mutex_); error_) return;
-    if (options_.drawn) options_.drawn();
     const auto begin = Clock::now();
     const bool complete = result_.frames == result_.frames_wanted && !truncated_;
     result_.outputs = outputs_.finish(complete ? Ending::complete : Ending::early);

@@ -93,7 +93,6 @@ struct RunOptions {
   std::optional<SheetGrid> sheet;         ///< frames in a picture whose path lacks {frame}; absent: the last
   GlBackend backend = GlBackend::automatic;
   int threads = 1;                   ///< threads for a step of a large cloth; 0: see with_threads()
-  std::function<void()> drawn = {};  ///< called when the outputs have every frame, before they are completed
   bool time_effects = false;         ///< measure each effect's share of the step time
   StepObserver* observer = nullptr;  ///< called after each step is recorded, on the simulating thread
   bool start_at_poster = false;      ///< begin looping films with their poster's frame

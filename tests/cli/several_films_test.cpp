@@ -49,5 +49,20 @@ TEST(SeveralFilms, AreAndSayWhatEachIsAndSaysByItself) {
   }
 }
 
+TEST(SeveralFilms, ThatHaveNotBegunAreNotBegunByAnInterruption) {
+  const SceneFolder folder;
+  for (const std::string name : {"first", "second", "third", "fourth"}) {
+    const std::string endless =
+        std::regex_replace(test::swinging_scene, std::regex("duration = 0.4"), "duration = 1e5");
+    folder.write(name + ".toml", endless + "[video]\nsize = [96, 80]\n[camera]\nposition = [0, -4, 1]\n");
+  }
+  const Finished run = drape(folder, "render first.toml second.toml third.toml fourth.toml -o '{scene}.gif'",
+                             "timeout --preserve-status -s INT 3");
+  EXPECT_EQ(run.code, 130) << run.text;
+  EXPECT_NE(run.text.find("drape: interrupted after"), std::string::npos) << run.text;
+  EXPECT_EQ(run.text.find("third"), std::string::npos) << run.text;
+  EXPECT_EQ(run.text.find("fourth"), std::string::npos) << run.text;
+}
+
 }  // namespace
 }  // namespace drape::several_films

@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <sstream>
+#include <thread>
 
+#include "cli/terminal.hpp"
 #include "core/text.hpp"
+#include "run/progress.hpp"
 #include "tests/cli/run_drape.hpp"
 
 namespace drape::cli {
@@ -49,6 +53,23 @@ TEST(Terminal, HelpOfEveryCommandFitsTheWindowAndHasExamples) {
   const Finished unknown = drape(folder, "help rendr");
   EXPECT_EQ(unknown.code, 2);
   EXPECT_EQ(unknown.text, "drape: unknown command 'rendr'; did you mean 'render'?\n");
+}
+
+// A film that began earlier is half done when its progress is first shown.
+TEST(Terminal, PredictsTheTimeLeftFromWhatIsDoneSinceItIsShown) {
+  Progress progress;
+  progress.begin("drawing", "frames", 200);
+  progress.done = 100;
+  testing::internal::CaptureStderr();
+  ProgressDisplay display(progress, ProgressDisplay::Style::bar);
+  display.update();
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  progress.done = 101;
+  display.update();
+  const std::string text = testing::internal::GetCapturedStderr();
+  const std::string head = "drawing 101/200 frames  ";
+  ASSERT_NE(text.find(head), std::string::npos) << text;
+  EXPECT_LE(std::stod(text.substr(text.find(head) + head.size())), 20) << text;  // frames per second
 }
 
 TEST(Terminal, AnswersWithWhatWasMeant) {

@@ -219,24 +219,6 @@ TEST(RunScene, StopsWhenItIsToldToAndKeepsTheRecords) {
   EXPECT_EQ(result.statistics.steps(), 1);
 }
 
-TEST(RunScene, TellsOnceThatAllIsDrawnAndOnlyFilmsAreToBeCompleted) {
-  const test::SceneFolder folder;
-  const fs::path film = folder.path() / "film.gif";
-  RunOptions options;
-  options.outputs = {film.string()};
-  int told = 0;
-  options.drawn = [&] {
-    ++told;
-    EXPECT_FALSE(fs::exists(film));
-  };
-  Progress progress;
-  const RunResult result =
-      run_scene(folder.load(std::string(swinging) + "[video]\nsize = [32, 24]\n"), options, {}, progress);
-  EXPECT_EQ(told, 1);
-  EXPECT_EQ(result.frames, result.frames_wanted);
-  EXPECT_TRUE(fs::exists(film));
-}
-
 // A run that draws only some frames gives the same pictures as one that draws all.
 TEST(RunScene, WhatIsNotShownNeedNotBeDrawn) {
   const test::SceneFolder folder;
