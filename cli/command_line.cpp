@@ -418,8 +418,8 @@ std::vector<NamedKey> keys_named(std::string name) {
   for_each_table([&](const TableType& table) {
     for (const Key& key : table.keys.all()) {
       if (key.name != name) continue;
-      const bool pair = std::holds_alternative<Eigen::Vector2i*>(key.target) ||
-                        std::holds_alternative<std::optional<Eigen::Vector2i>*>(key.target);
+      const bool pair =
+          key.pointer<Eigen::Vector2i>() != nullptr || key.pointer<std::optional<Eigen::Vector2i>>() != nullptr;
       found.push_back({table.name + "." + key.name, pair});
     }
   });

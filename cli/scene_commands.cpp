@@ -10,7 +10,6 @@
 #include "cli/command_line.hpp"
 #include "cli/manual/completions.hpp"
 #include "cli/manual/man_pages.hpp"
-#include "cli/manual/scene_schema.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/scene_run.hpp"
@@ -25,6 +24,7 @@
 #include "render/gl/inspect.hpp"
 #include "run/outputs.hpp"
 #include "scene/motion_scene.hpp"
+#include "scene/values/json_schema.hpp"
 
 namespace drape {
 namespace {
@@ -139,9 +139,9 @@ void add_schema_command(CLI::App& app, Command& command) {
   sub->callback([file, &command] {
     command = [file] {
       if (file->empty()) {
-        print_text(stdout, scene_schema());
+        print_text(stdout, json_schema::scene());
       } else {
-        write_file_atomically(*file, scene_schema());
+        write_file_atomically(*file, json_schema::scene());
       }
       return ExitCode::ok;
     };

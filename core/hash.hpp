@@ -26,6 +26,14 @@ class Hash {
 /// Hashes bytes and returns 16 hexadecimal digits.
 std::string checksum_of(std::string_view bytes);
 
+/// Hashes the bits of consecutive numbers and returns 16 hexadecimal digits.
+template <class Number>
+std::string checksum_of(const Number* numbers, std::size_t count) {
+  Hash hash;
+  hash.add(numbers, count * sizeof(Number));
+  return hash.text();
+}
+
 /// Splits words into byte planes: the most significant bytes of all words, then the next ones. Similar bytes become
 /// neighbours, so the result compresses well.
 std::string byte_planes(const std::vector<std::uint64_t>& words);

@@ -1,23 +1,18 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <any>
 #include <array>
 #include <cstddef>
 #include <deque>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "drape/core/rgb.hpp"
 #include "drape/core/rotation.hpp"
-#include "drape/core/warp_weft.hpp"
 
 namespace drape {
 
@@ -26,12 +21,6 @@ struct Choice {
   std::vector<std::string> names;
   std::function<void(std::size_t)> set;
   std::optional<std::size_t> initial = 0;  ///< index of the default
-};
-
-/// A value of a special form, such as a mesh or a motion file; interpreted by the reader of the table.
-struct CustomValue {
-  std::string form;  ///< description for a reference page: "number or [x, y, z]"
-  std::any target;   ///< pointer to the variable that the key sets
 };
 
 /// Keyframes, [{ time = 0, NAME = [x, y, z] }, …], at increasing times from 0.
@@ -54,14 +43,17 @@ struct FormulaList {
   std::function<std::optional<std::string>(const std::string&)> problem;
 };
 
+/// Name of the only cloth that an effect acts on; empty: all cloths.
+struct ClothName {
+  std::string* name = nullptr;
+};
+
 /// One key of a settings table: name, target variable, valid range and a sentence of help. Readers, error messages and
 /// reference pages are all made from it.
 struct Key {
-  using Target =
-      std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, CustomValue, KeyframeList,
-                   VertexSelection, FormulaList, Eigen::Vector2i*, Eigen::Vector3d*, std::vector<int>*,
-                   std::optional<int>*, std::optional<double>*, std::optional<Rgb>*, std::optional<Eigen::Vector2i>*,
-                   std::optional<Eigen::Vector3d>*, std::optional<WarpWeft>*>;
+  /// A pointer to the variable that the key sets, or a description such as Choice. Its type determines the kind of
+  /// value, see ValueKind.
+  using Target = std::any;
 
   std::string name;
   Target target;
@@ -72,6 +64,20 @@ struct Key {
   double minimum = -std::numeric_limits<double>::infinity();  ///< applies to every component of a vector
   double maximum = std::numeric_limits<double>::infinity();
   bool minimum_excluded = false;
+  bool hashed = true;  ///< false: a motion's hash omits it, as it affects only the picture or the length of the run, or
+                       ///< as the hash contains what is made of it
+
+  /// Returns the target if it has this type, otherwise null.
+  template <class T>
+  [[nodiscard]] const T* as() const {
+    return std::any_cast<T>(&target);
+  }
+  /// Returns the variable if the target is a pointer to one of this type, otherwise null.
+  template <class T>
+  [[nodiscard]] T* pointer() const {
+    T* const* variable = as<T*>();
+    return variable == nullptr ? nullptr : *variable;
+  }
 
   Key& must_be_given() { return required = true, *this; }
   Key& must_be_given_unless(std::vector<std::string> others) {
@@ -79,6 +85,7 @@ struct Key {
   }
   Key& at_least(double value) { return minimum = value, *this; }
   Key& at_most(double value) { return maximum = value, *this; }
+  Key& omit_from_hash() { return hashed = false, *this; }
   Key& above(double value) { return minimum = value, minimum_excluded = true, *this; }
 };
 

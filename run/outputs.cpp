@@ -14,7 +14,7 @@
 #include "output/registry.hpp"
 #include "render/overlay/diagrams.hpp"
 #include "run/run_scene.hpp"
-#include "scene/caption.hpp"
+#include "scene/scene_values.hpp"
 
 namespace drape {
 namespace {

@@ -8,7 +8,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <type_traits>
 #include <variant>
 
 #include "core/files.hpp"
@@ -18,6 +17,7 @@
 #include "scene/mesh/source.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
+#include "scene/values/value_kind.hpp"
 
 namespace drape {
 namespace {
@@ -250,25 +250,6 @@ bool passes_through(TomlValue& value, std::string_view name) {
   return items != nullptr && items->size() == 1 && items->front().as<TomlTable>() != nullptr && !item_number(name);
 }
 
-/// Returns the default of a target as the document would write it; nothing unless it is an array.
-template <class Target>
-std::optional<TomlValue> default_array(Target target, const Place& place) {
-  if constexpr (std::is_same_v<Target, Eigen::Vector2i*> || std::is_same_v<Target, Eigen::Vector3d*>) {
-    TomlArray items;
-    for (Eigen::Index i = 0; i < target->size(); ++i) {
-      TomlValue item{.place = place, .data = false};
-      if constexpr (std::is_same_v<Target, Eigen::Vector2i*>) {
-        item.data = std::int64_t{(*target)[i]};
-      } else {
-        item.data = (*target)[i];
-      }
-      items.push_back(std::move(item));
-    }
-    return TomlValue{.place = place, .data = std::move(items)};
-  }
-  return std::nullopt;
-}
-
 /// Calls `use` with a key of a table, "video" or "effects.wind", if it exists. The key's target has its default.
 template <class Use>
 void with_key(const std::string& table, const std::string& name, Use use) {
@@ -286,12 +267,12 @@ TomlValue value_on_the_way(const std::vector<std::string>& path, std::size_t dep
   if (depth + 1 == path.size() || !item_number(path[depth + 1])) return value;
   const bool effect = path.front() == "effects" && depth > 1;  // effects may have a number in the path
   with_key(joined(path, effect ? 2 : depth), path[depth], [&](const Key& key) {
-    const auto initial = std::visit([&](const auto& target) { return default_array(target, place); }, key.target);
-    if (!initial) {
+    const std::string initial = kind_of(key).text(key);
+    if (key.required || !initial.starts_with('[')) {
       throw UsageError(
           fmt::format("{0} has no items until it is given: set all of it, {0}=…", joined(path, depth + 1)));
     }
-    value = *initial;
+    value = parse_value(initial, place);
   });
   return value;
 }

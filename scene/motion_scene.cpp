@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "drape/core/error.hpp"
 #include "drape/scene/document.hpp"
@@ -13,19 +11,23 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array<std::string_view, 3> physics_tables{"time", "integrator", "effects"};
 constexpr double longest_motion = 1e6;  // stand-in until the motion is read
+
+/// Returns true for a table other than [cloth] that affects the motion: "time".
+bool is_physics(const std::string& table) {
+  return table == "effects" || std::ranges::count(tables_that_affect(TableType::Affects::motion), table) > 0;
+}
 
 /// Returns true for an override of a physics table, for example "cloth.mass=2".
 bool is_of_physics(const std::string& override_text) {
-  const std::string_view table(override_text.data(), override_text.find_first_of(".="));
-  return table == "cloth" || std::ranges::find(physics_tables, table) != physics_tables.end();
+  const std::string table = override_text.substr(0, override_text.find_first_of(".="));
+  return table == "cloth" || is_physics(table);
 }
 
 /// Reports and removes keys that only a computed motion has.
 void refuse_physics(TomlTable& root, TomlTable& cloth, const TableType& own, Problems& problems) {
   std::erase_if(root.entries, [&](const TomlEntry& entry) {
-    if (std::ranges::find(physics_tables, entry.name) == physics_tables.end()) return false;
+    if (!is_physics(entry.name)) return false;
     problems.add(entry.place, fmt::format("[{}]: the motion is read, not computed: omit this table", entry.name));
     return true;
   });
@@ -103,7 +105,7 @@ TableType named_motion_table(NamedMotion& motion, const TomlValue*& body) {
   TableType table{.name = "cloth", .help = "A motion that is read instead of computed.", .keys = {}};
   Keys& keys = table.keys;
   keys.add("motion", &motion.motion, "", "Its file, or a sequence of files.").must_be_given();
-  keys.add("body", CustomValue{"path, or [path, …]", &body}, "", "Obstacles, in the same formats.");
+  keys.add("body", Written<FilesKind>{&body}, "", "Obstacles, in the same formats.");
   keys.add("fps", &motion.fps, "1/s", "Frames per second.").above(0);
   keys.choice("up", motion.y_up, {"z", "y"}, "The axis that points up in the files.");
   keys.add("scale", &motion.scale, "m", "The length of a unit of the files.").above(0);
@@ -120,7 +122,7 @@ std::optional<SceneOfMotion> load_scene_of_motion(const fs::path& file, const st
   TomlValue* cloth = root.find("cloth");
   if (cloth == nullptr || cloth->as<TomlTable>() == nullptr || find_path(*cloth, "motion") == nullptr) return {};
   problems.throw_if_any();
-  const std::string own_digest = digest(document, {"check", "caption", "overlay"});
+  const std::string own_digest = digest(document, tables_that_affect(TableType::Affects::nothing));
   SceneOfMotion scene{.named = read_named_motion(root, *cloth, file.parent_path(), problems), .look = {}};
   add_stand_ins(document, cloth->place);
   std::vector<std::string> of_look = overrides;

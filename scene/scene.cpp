@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <any>
 #include <cmath>
 #include <functional>
 #include <initializer_list>
@@ -13,19 +12,13 @@
 #include <span>
 #include <vector>
 
-#include "core/files.hpp"
-#include "core/hash.hpp"
 #include "drape/scene/document.hpp"
-#include "drape/sim/body_shape.hpp"
 #include "drape/sim/effects/bending.hpp"
-#include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/simulation.hpp"
-#include "scene/caption.hpp"
-#include "scene/cloth_list.hpp"
-#include "scene/effects_reader.hpp"
+#include "scene/cloth_reader.hpp"
+#include "scene/scene_values.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
-#include "scene/values.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/system.hpp"
 
@@ -318,7 +311,7 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
     scene.warnings = std::move(cloths.warnings);
     reader.set_meshes(cloths.meshes);
   }
-  const std::vector<ReadEffect> effects = read_effects(document, reader, problems);
+  std::vector<ReadEffect> effects = read_effects(document, reader, problems);
   scene.inputs = reader.files();
   scene.inputs.insert(scene.inputs.end(), cloths.inputs.begin(), cloths.inputs.end());
   if (const TomlValue* look = find_path(document, "look")) {
@@ -340,12 +333,15 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
     return value != nullptr && value->place.override_number > 0;
   });
 
-  scene.fields = scene_fields(scene.name, named_tables(cloths, scene), effects, document);
-  if (const TomlValue* caption = find_path(document, "caption")) {
+  const auto list_fields = [&] {
+    scene.fields = scene_fields(scene.name, written_tables(cloths, scene, effects, document));
+    const TomlValue* caption = find_path(document, "caption");
+    if (caption == nullptr) return;
     const Place place = place_of(*caption, "text");
     scene.caption.filled = fill_caption(scene.caption.text, scene.fields, place, problems);
     scene.caption_place = problems.text(place);
-  }
+  };
+  list_fields();
 
   const bool keys_good = problems.count() == 0;
   // Check a rule only if all of its tables were read well; otherwise defaults replace wrong values.
@@ -378,15 +374,12 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   }
   if (keys_good) problems.throw_if_any<SceneConflict>();
   problems.throw_if_any();
-  scene.digest = digest(document, {"check", "caption", "overlay"});
+  scene.digest = digest(document, tables_that_affect(TableType::Affects::nothing));
   if (scene.simulation.integrator.method == Method::automatic) {
     name_method(scene, document, problems);
-    scene.fields = scene_fields(scene.name, named_tables(cloths, scene), effects, document);
-    if (const TomlValue* caption = find_path(document, "caption")) {
-      scene.caption.filled = fill_caption(scene.caption.text, scene.fields, place_of(*caption, "text"), problems);
-    }
+    list_fields();
   }
-  scene.tables = physics_of_tables(named_tables(cloths, scene), effects, folder);
+  scene.tables = physics_of_tables(written_tables(cloths, scene, effects, document), folder);
   scene.portable = make_portable(document, folder, scene.inputs);
   checks.stability();
   problems.throw_if_any<SceneConflict>();
@@ -467,185 +460,6 @@ void coarsen_grid(TomlValue& document) {
 void apply_quality(Scene& scene, const std::function<bool(const char*)>& given) {
   if (scene.quality == Quality::draft) make_draft(scene, given);
   if (scene.quality == Quality::print) make_print(scene, given);
-}
-
-namespace {
-
-constexpr std::size_t most_bytes = std::size_t{1} << 31;
-
-/// Hashes consecutive numbers.
-template <class Number>
-std::string hash_of(const Number* numbers, std::size_t count) {
-  Hash hash;
-  hash.add(numbers, count * sizeof(Number));
-  return hash.text();
-}
-
-std::string hash_of(const Vertices& v) { return hash_of(v.data(), static_cast<std::size_t>(v.size())); }
-
-std::string springs_text(const std::vector<Spring>& springs) {
-  Hash hash;
-  for (const Spring& spring : springs) {
-    hash.add(&spring.i, sizeof spring.i);
-    hash.add(&spring.j, sizeof spring.j);
-    hash.add(&spring.rest_length, sizeof spring.rest_length);
-    hash.add(&spring.stiffness, sizeof spring.stiffness);
-  }
-  return fmt::format("{} springs ({})", springs.size(), hash.text());
-}
-
-std::string seam_text(const Seam& seam) {
-  Hash hash;
-  for (const SeamTie& tie : seam.ties) {
-    hash.add(&tie.vertex, sizeof tie.vertex);
-    hash.add(tie.edge.data(), sizeof tie.edge);
-    hash.add(&tie.share, sizeof tie.share);
-    hash.add(&tie.length, sizeof tie.length);
-  }
-  return fmt::format("{} ties ({}), closed at {} s", seam.ties.size(), hash.text(), seam.time);
-}
-
-/// Returns the hash of a file's content. A pipe can be read only once, so its name is returned.
-std::string file_text(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) return file.string();
-  Hash hash;
-  hash.add(drape::read_file(file, most_bytes));
-  return "a file (" + hash.text() + ")";
-}
-
-/// Describes a moving mesh, whatever its source.
-std::string motion_text(const MeshMotion* motion) {
-  if (motion == nullptr) return "";
-  Hash hash;
-  hash.add(hash_of(motion->mesh.triangles.data(), motion->mesh.triangles.size()));
-  hash.add(hash_of(motion->mesh.positions));
-  hash.add(hash_of(motion->times.data(), motion->times.size()));
-  for (const Vertices& sample : motion->samples) hash.add(hash_of(sample));
-  return fmt::format("{} vertices at {} times ({})", motion->mesh.positions.rows(), motion->times.size(), hash.text());
-}
-
-/// Describes the shape of a body, if it is of the key's kind.
-std::string shape_text(const BodyShapeKey& key) {
-  if (!*key.shape || (*key.shape)->kind != key.kind) return "";
-  const BodyShape& s = **key.shape;
-  return fmt::format("{} {} {} {} {} {}", s.radius, s.height, s.top, s.width, s.depth, s.segments);
-}
-
-/// Describes the friction of pairs of cloths.
-std::string frictions_text(const std::vector<ClothFriction>& frictions) {
-  std::string text;
-  for (const auto& [cloths, friction] : frictions) text += fmt::format("{} {} {}; ", cloths[0], cloths[1], friction);
-  return text;
-}
-
-/// Returns true for a key of [cloth] that does not affect the motion.
-bool is_of_look(const std::string& key) { return key == "name" || key == "color" || key == "texture"; }
-
-/// Returns true for a key that selects cloths and has not been given.
-bool stands_for_all(const Key& key) {
-  if (key.name == "cloth") return std::get<std::string*>(key.target)->empty();
-  const auto* form = std::get_if<CustomValue>(&key.target);
-  auto* const* frictions = form == nullptr ? nullptr : std::any_cast<std::vector<ClothFriction>*>(&form->target);
-  return frictions != nullptr && (*frictions)->empty();
-}
-
-/// Returns text for a value in a custom form of an effect; nothing for other values.
-std::optional<std::string> own_text(const Key& key) {
-  const auto* form = std::get_if<CustomValue>(&key.target);
-  if (const auto* shape = form == nullptr ? nullptr : std::any_cast<BodyShapeKey>(&form->target)) {
-    return shape_text(*shape);
-  }
-  if (form != nullptr) {
-    auto* const* frictions = std::any_cast<std::vector<ClothFriction>*>(&form->target);
-    if (frictions != nullptr) return frictions_text(**frictions);
-  }
-  auto* const* motion = form == nullptr ? nullptr : std::any_cast<std::shared_ptr<const MeshMotion>*>(&form->target);
-  return motion == nullptr ? std::nullopt : std::optional(motion_text((*motion)->get()));
-}
-
-}  // namespace
-
-std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, const std::vector<ReadEffect>& effects,
-                                          const std::filesystem::path& folder) {
-  std::vector<SceneValue> values;
-  for (const TableType& table : tables) {
-    if (!table.name.starts_with("cloth") && table.name != "time" && table.name != "integrator") continue;
-    for (const Key& key : table.keys.all()) {
-      if (table.name.starts_with("cloth") && is_of_look(key.name)) continue;
-      // The cloth itself records its mesh and the vertices selected from it.
-      if (std::holds_alternative<CustomValue>(key.target) || (table.name == "time" && key.name == "duration")) continue;
-      values.push_back({table.name + "." + key.name, value_text(key.target)});
-    }
-  }
-  const std::vector<std::string> paths = effect_paths(effects);
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    values.push_back({paths[i], "there"});
-    Effect effect = effects[i].effect;
-    Keys keys;
-    effect.describe(keys);
-    for (const Key& key : keys.all()) {
-      const auto* form = std::get_if<CustomValue>(&key.target);
-      if (form != nullptr && std::any_cast<BodyShapeKey>(&form->target) != nullptr && own_text(key)->empty()) continue;
-      if (stands_for_all(key)) continue;
-      if (const auto text = own_text(key)) {
-        values.push_back({paths[i] + "." + key.name, *text});
-        continue;
-      }
-      const TomlTable* table = effects[i].table->as<TomlTable>();
-      const TomlValue* given = table == nullptr ? nullptr : table->find(key.name);
-      const std::string* file = given == nullptr ? nullptr : given->as<std::string>();
-      const bool is_file = std::holds_alternative<CustomValue>(key.target) && file != nullptr;
-      values.push_back({paths[i] + "." + key.name, is_file ? file_text(folder / *file) : value_text(key.target)});
-    }
-  }
-  return values;
-}
-
-std::vector<SceneValue> physics_values(const Scene& scene) {
-  const Cloth& cloth = scene.simulation.cloth;
-  std::vector<SceneValue> values{
-      {"cloth.mesh", fmt::format("{} vertices ({}), {} triangles ({})", cloth.vertex_count(), hash_of(cloth.positions),
-                                 cloth.triangles.size(), hash_of(cloth.triangles.data(), cloth.triangles.size()))},
-      {"cloth.rest", springs_text(cloth.springs)},
-      {"cloth.pins", fmt::format("{} ({})", cloth.pins.size(), hash_of(cloth.pins.data(), cloth.pins.size()))}};
-  for (const ClothPiece& piece : cloth.pieces) {
-    if (cloth.pieces.size() < 2) break;
-    values.push_back(
-        {"cloth." + piece.name, fmt::format("{} vertices from {}", piece.vertex_count, piece.first_vertex)});
-  }
-  for (std::size_t k = 0; k < cloth.seams.size(); ++k) {
-    values.push_back({fmt::format("seam.{}", k), seam_text(cloth.seams[k])});
-  }
-  values.insert(values.end(), scene.tables.begin(), scene.tables.end());
-  return values;
-}
-
-std::string physics_hash(const std::vector<SceneValue>& values) {
-  Hash hash;
-  for (const SceneValue& value : values) hash.add(fmt::format("{}={}\n", value.key, value.text));
-  return hash.text();
-}
-
-std::string physics_difference(const std::vector<SceneValue>& a, const std::vector<SceneValue>& b,
-                               const std::string& name) {
-  const auto text_in = [](const std::vector<SceneValue>& values, const std::string& key) {
-    const auto found = std::ranges::find(values, key, &SceneValue::key);
-    return found == values.end() || found->text.empty() ? std::string("nothing") : found->text;
-  };
-  std::string text;
-  const auto add = [&](const std::string& key) {
-    const std::string in_a = text_in(a, key), in_b = text_in(b, key);
-    if (in_a != in_b) text += fmt::format("{}{}: {}, and {} in {}", text.empty() ? "" : "\n", key, in_a, in_b, name);
-  };
-  constexpr std::string_view springs = "cloth.rest";  // computed from other keys
-  for (const SceneValue& value : a) {
-    if (value.key != springs) add(value.key);
-  }
-  for (const SceneValue& value : b) {
-    if (std::ranges::find(a, value.key, &SceneValue::key) == a.end()) add(value.key);
-  }
-  if (text.empty()) add(std::string(springs));
-  return text;
 }
 
 }  // namespace drape

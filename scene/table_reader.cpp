@@ -2,289 +2,19 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <any>
 #include <charconv>
-#include <cmath>
+#include <map>
 
 #include "core/text.hpp"
-#include "drape/core/error.hpp"
-#include "drape/scene/scene.hpp"
-#include "drape/sim/body_shape.hpp"
-#include "drape/sim/effects/self_collision.hpp"
-#include "scene/cloth_reader.hpp"
-#include "scene/mesh_value.hpp"
-#include "scene/usd/motion.hpp"
+#include "scene/tables.hpp"
 #include "scene/values.hpp"
+#include "scene/values/value_kind.hpp"
+#include "sim/start_overlap.hpp"
 
 namespace drape {
 namespace {
 
 constexpr const char* effects_table = "effects";
-
-/// Reads a list of [x, y, width, height].
-std::vector<PixelRectangle> read_rectangles(const TomlValue& value, const std::string& name, Problems& problems) {
-  constexpr int largest = 8192;  // limit of [check] size
-  std::vector<PixelRectangle> rectangles;
-  const TomlArray* list = value.as<TomlArray>();
-  if (list == nullptr) {
-    problems.add(value.place, fmt::format("{}: expected [[x, y, width, height], …], found {}", name, value.kind()));
-    return rectangles;
-  }
-  for (const TomlValue& item : *list) {
-    const auto numbers = read_ints(item, name, {.minimum = 0, .maximum = largest}, problems);
-    if (!numbers) continue;
-    if (numbers->size() != 4 || (*numbers)[2] == 0 || (*numbers)[3] == 0) {
-      problems.add(item.place, name + ": expected [x, y, width, height], with a width and a height above 0");
-      continue;
-    }
-    rectangles.push_back({(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]});
-  }
-  return rectangles;
-}
-
-/// Reads an item of [[cloth, cloth, { friction = number }], …]; returns nothing after a problem.
-std::optional<ClothFriction> read_friction(const TomlValue& item, const std::string& name, Problems& problems) {
-  const TomlArray* parts = item.as<TomlArray>();
-  const TomlTable* table = parts == nullptr || parts->size() != 3 ? nullptr : (*parts)[2].as<TomlTable>();
-  const TomlValue* value = table == nullptr ? nullptr : table->find("friction");
-  const std::string* first = value == nullptr ? nullptr : (*parts)[0].as<std::string>();
-  const std::string* second = value == nullptr ? nullptr : (*parts)[1].as<std::string>();
-  if (first == nullptr || second == nullptr || table->entries.size() != 1) {
-    problems.add(item.place, name + ": expected [\"cloth\", \"cloth\", { friction = number }]");
-    return std::nullopt;
-  }
-  const auto friction = read_number(*value, name + ".friction", {.minimum = 0}, problems);
-  if (!friction) return std::nullopt;
-  return ClothFriction{.cloths = {*first, *second}, .friction = *friction};
-}
-
-/// Reads the friction of pairs of cloths.
-std::vector<ClothFriction> read_frictions(const TomlValue& value, const std::string& name, Problems& problems) {
-  std::vector<ClothFriction> frictions;
-  const TomlArray* list = value.as<TomlArray>();
-  if (list == nullptr) {
-    problems.add(value.place, fmt::format("{}: expected [[cloth, cloth, {{ friction = number }}], …], found {}", name,
-                                          value.kind()));
-    return frictions;
-  }
-  for (const TomlValue& item : *list) {
-    if (auto friction = read_friction(item, name, problems)) frictions.push_back(*std::move(friction));
-  }
-  return frictions;
-}
-
-/// Reader of a key's value into its target, for every type of target.
-class KeyReader {
- public:
-  /// @param table table that contains the key
-  KeyReader(const TomlTable& table, const TomlValue& value, const Key& key, const std::filesystem::path& folder,
-            const std::deque<PlacedSelection>* meshes, Problems& problems, std::vector<std::filesystem::path>& files)
-      : table_(table),
-        value_(value),
-        key_(key),
-        range_{key.minimum, key.maximum, key.minimum_excluded},
-        folder_(folder),
-        meshes_(meshes),
-        problems_(problems),
-        files_(files) {}
-
-  void operator()(bool* target) const { assign(target, read_bool(value_, key_.name, problems_)); }
-  void operator()(int* target) const { assign(target, read_int(value_, key_.name, range_, problems_)); }
-  void operator()(double* target) const { assign(target, in_reach(read_number(value_, key_.name, range_, problems_))); }
-  void operator()(std::string* target) const { assign(target, read_string(value_, key_.name, problems_)); }
-  void operator()(std::filesystem::path* target) const {
-    const std::optional<std::filesystem::path> file = read_file_name(value_, key_.name, folder_, problems_);
-    assign(target, file);
-    if (file && !file->empty()) files_.push_back(*file);
-  }
-  void operator()(Rgb* target) const { assign(target, read_color()); }
-  void operator()(Eigen::Vector2i* target) const {
-    assign(target, read_int_pair(value_, key_.name, range_, problems_));
-  }
-  void operator()(Eigen::Vector3d* target) const {
-    assign(target, in_reach(read_vector(value_, key_.name, range_, problems_)));
-  }
-  void operator()(std::vector<int>* target) const { assign(target, read_ints(value_, key_.name, range_, problems_)); }
-  void operator()(std::optional<Eigen::Vector2i>* target) const {
-    assign(target, read_int_pair(value_, key_.name, range_, problems_));
-  }
-  void operator()(std::optional<int>* target) const { assign(target, read_int(value_, key_.name, range_, problems_)); }
-  void operator()(std::optional<double>* target) const {
-    assign(target, in_reach(read_number(value_, key_.name, range_, problems_)));
-  }
-  void operator()(std::optional<WarpWeft>* target) const {
-    if (value_.as<TomlArray>() == nullptr) {
-      assign(target, read_number(value_, key_.name, range_, problems_));
-    } else if (const auto both = read_pair(value_, key_.name, range_, problems_)) {
-      *target = WarpWeft((*both)[0], (*both)[1]);
-    }
-  }
-  void operator()(std::optional<Rgb>* target) const { assign(target, read_color()); }
-  void operator()(std::optional<Eigen::Vector3d>* target) const {
-    assign(target, in_reach(read_vector(value_, key_.name, range_, problems_)));
-  }
-  void operator()(const CustomValue& form) const {
-    if (auto* const* track = std::any_cast<std::shared_ptr<const SphereTrack>*>(&form.target)) {
-      read_track(**track);
-    } else if (auto* const* moving = std::any_cast<std::shared_ptr<const MeshMotion>*>(&form.target)) {
-      read_moving_mesh(**moving);
-    } else if (const auto* shape = std::any_cast<BodyShapeKey>(&form.target)) {
-      read_shape(*shape);
-    } else if (auto* const* frictions = std::any_cast<std::vector<ClothFriction>*>(&form.target)) {
-      **frictions = read_frictions(value_, key_.name, problems_);
-    } else if (auto* const* rectangles = std::any_cast<std::vector<PixelRectangle>*>(&form.target)) {
-      **rectangles = read_rectangles(value_, key_.name, problems_);
-    } else {
-      *std::any_cast<const TomlValue**>(form.target) = &value_;  // the describer of the table reads it
-    }
-  }
-  void operator()(const KeyframeList& list) const {
-    const std::size_t before = problems_.count();
-    read_keyframes(value_, key_.name, list, problems_);
-    if (problems_.count() != before) return;
-    for (const Keyframe& keyframe : *list.keyframes) {
-      if (!in_reach(std::optional(keyframe.value))) return;
-    }
-  }
-  void operator()(const VertexSelection& selection) const {
-    const std::size_t before = problems_.count();
-    const PlacedSelection* mesh = selected_cloth();
-    if (problems_.count() != before) return;
-    *selection.vertices = read_pins(value_, mesh == nullptr ? nullptr : &mesh->mesh, problems_);
-    if (mesh == nullptr) return;
-    for (int& vertex : *selection.vertices) vertex += mesh->first_vertex;
-  }
-
-  void operator()(const FormulaList& list) const {
-    if (const auto formulas = read_formulas(value_, key_.name, list.problem, problems_)) *list.formulas = *formulas;
-  }
-
-  void operator()(const Choice& choice) const {
-    const std::optional<std::string> name = read_string(value_, key_.name, problems_);
-    if (!name) return;
-    const auto found = std::find(choice.names.begin(), choice.names.end(), *name);
-    if (found != choice.names.end()) {
-      choice.set(static_cast<std::size_t>(found - choice.names.begin()));
-    } else {
-      problems_.add(value_.place, fmt::format("unknown {} '{}'{}", key_.name, *name,
-                                              did_you_mean(*name, choice.names, "the choices are")));
-    }
-  }
-
- private:
-  template <class Target, class Result>
-  static void assign(Target* target, const std::optional<Result>& result) {
-    if (result) *target = *result;
-  }
-
-  /// Returns the cloth that `cloth` beside the key names, or the only one; null after a problem and without cloths.
-  [[nodiscard]] const PlacedSelection* selected_cloth() const {
-    if (meshes_ == nullptr || meshes_->empty()) return nullptr;
-    const TomlValue* name = table_.find("cloth");
-    const std::string* text = name == nullptr ? nullptr : name->as<std::string>();
-    if (name == nullptr && meshes_->size() == 1) return &meshes_->front();
-    if (name == nullptr) {
-      problems_.add(value_.place, key_.name + ": there are several cloths: say which one with 'cloth'");
-    }
-    if (text == nullptr) return nullptr;
-    const auto found = std::ranges::find(*meshes_, *text, &PlacedSelection::name);
-    if (found != meshes_->end()) return &*found;
-    std::vector<std::string> names;
-    for (const PlacedSelection& mesh : *meshes_) names.push_back(mesh.name);
-    problems_.add(name->place,
-                  fmt::format("unknown cloth '{}'{}", *text, did_you_mean(*text, names, "the cloths are")));
-    return nullptr;
-  }
-
-  static double magnitude(double number) { return std::abs(number); }
-  static double magnitude(const Eigen::Vector3d& vector) { return vector.cwiseAbs().maxCoeff(); }
-
-  /// Rejects positions and velocities so large that their products overflow.
-  template <class Value>
-  std::optional<Value> in_reach(const std::optional<Value>& value) const {
-    const bool of_place = key_.unit == "m" || key_.unit == "m/s" || key_.unit == "s, m";
-    if (!value || !of_place || magnitude(*value) <= furthest_place) return value;
-    problems_.add(value_.place, fmt::format("{}: found {:g}; beyond {:g} {} it overflows double precision", key_.name,
-                                            magnitude(*value), furthest_place, key_.unit == "m/s" ? "m/s" : "m"));
-    return std::nullopt;
-  }
-
-  void read_track(std::shared_ptr<const SphereTrack>& track) const {
-    const std::optional<std::string> file = read_string(value_, key_.name, problems_);
-    if (!file) return;
-    files_.push_back(folder_ / *file);
-    try {
-      track = read_sphere_track(folder_ / *file);
-    } catch (const UsageError& error) {
-      problems_.add(value_.place, fmt::format("{}: '{}' cannot be read:\n{}", key_.name, *file, error.what()));
-    }
-  }
-
-  void read_shape(const BodyShapeKey& key) const {
-    if (*key.shape) {
-      const std::string& other = body_shape_names()[static_cast<std::size_t>((*key.shape)->kind)];
-      problems_.add(value_.place,
-                    fmt::format("give only one of '{}' and '{}': each is the body's shape", other, key_.name));
-      return;
-    }
-    const std::size_t before = problems_.count();
-    BodyShape shape{.kind = key.kind};
-    TableReader(folder_, problems_).read(value_, {.name = key_.name, .help = {}, .keys = body_shape_keys(shape)});
-    if (problems_.count() != before) return;
-    if (const auto problem = body_shape_problem(shape)) {
-      problems_.add(value_.place, key_.name + ": " + *problem);
-    } else {
-      *key.shape = shape;
-    }
-  }
-
-  void require_reach(const MeshMotion& motion) const {
-    double furthest = motion.mesh.positions.lpNorm<Eigen::Infinity>();
-    for (const Vertices& sample : motion.samples) furthest = std::max(furthest, sample.lpNorm<Eigen::Infinity>());
-    if (furthest <= furthest_place) return;
-    problems_.add(value_.place,
-                  fmt::format("{}: a vertex is at {:g} m; distances beyond {:g} m overflow double precision", key_.name,
-                              furthest, furthest_place));
-  }
-
-  /// Reads a mesh that may move. If only a file name is given, the key `prim` beside it selects the mesh in the file.
-  void read_moving_mesh(std::shared_ptr<const MeshMotion>& mesh) const {
-    std::optional<MeshName> named = read_mesh_name(value_, key_.name, true, problems_);
-    if (!named) return;
-    const TomlValue* prim = value_.as<std::string>() == nullptr ? nullptr : table_.find("prim");
-    if (prim != nullptr && prim->as<std::string>() != nullptr) named->options.prim = *prim->as<std::string>();
-    try {
-      mesh = std::make_shared<MeshMotion>(read_mesh_motion(folder_ / named->file, named->options, &files_));
-      require_reach(*mesh);
-    } catch (const UsageError& error) {
-      problems_.add(value_.place,
-                    fmt::format("{}: '{}' cannot be read:\n{}", key_.name, shown(named->file), error.what()));
-    }
-  }
-
-  [[nodiscard]] std::optional<Rgb> read_color() const {
-    const std::optional<std::string> text = read_string(value_, key_.name, problems_);
-    if (!text) return std::nullopt;
-    const std::optional<Rgb> color = parse_color(*text);
-    if (!color) {
-      problems_.add(value_.place,
-                    text->starts_with('#')
-                        ? fmt::format("{}: expected a colour like '#d4a017' or '#fff', found '{}'", key_.name, *text)
-                        : fmt::format("{}: unknown colour '{}'{}", key_.name, *text,
-                                      did_you_mean(*text, color_names(), "write it as '#rrggbb' or one of")));
-    }
-    return color;
-  }
-
-  const TomlTable& table_;
-  const TomlValue& value_;
-  const Key& key_;
-  Range range_;
-  const std::filesystem::path& folder_;
-  const std::deque<PlacedSelection>* meshes_;
-  Problems& problems_;
-  std::vector<std::filesystem::path>& files_;
-};
 
 std::vector<std::string> key_names(const TableType& type) {
   std::vector<std::string> names;
@@ -359,7 +89,7 @@ void TableReader::read_entries(const TomlTable& table, const TableType& type,
   for (const TomlEntry& entry : table.entries) {
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == entry.name; });
     if (key != keys.end()) {
-      std::visit(KeyReader(table, entry.value, *key, folder_, meshes_, problems_, files_), key->target);
+      kind_of(*key).read({*key, entry.value, table, folder_, meshes_, problems_, files_});
     } else if (!contains(subtables, entry.name)) {
       report_unknown(entry, type, subtables);
     }
@@ -430,6 +160,87 @@ const TomlValue* find_path(const TomlValue& document, std::string_view path) {
     path.remove_prefix(std::min(dot + 1, path.size()));
   }
   return value;
+}
+
+namespace {
+
+/// Returns the tables of one effect: one, or several if it is repeatable.
+std::vector<const TomlValue*> tables_of(const TomlValue& value, bool repeatable) {
+  const TomlArray* array = value.as<TomlArray>();
+  if (array == nullptr || !repeatable) return {&value};
+  std::vector<const TomlValue*> tables;
+  for (const TomlValue& item : *array) tables.push_back(&item);
+  return tables;
+}
+
+/// Looks whether the cloth begins where an effect may not let it be.
+void check_start(const SimulationSettings& settings, std::size_t effect, const ProblemSink& problem) {
+  if (allows_overlap(settings.effects[effect])) return;
+  const auto overlap = find_overlap(settings, effect, settings.cloth.positions, 0);
+  if (!overlap || !overlap->contact) return;
+  problem("", fmt::format("the cloth begins with {}: move one of the two, or set allow_overlap = true to have them "
+                          "separated step by step",
+                          describe(StartOverlap{effect, *overlap}, settings)));
+}
+
+}  // namespace
+
+std::vector<ReadEffect> read_effects(const TomlValue& document, TableReader& reader, Problems& problems) {
+  const TomlValue* value = find_path(document, "effects");
+  if (value == nullptr) return {};
+  const TomlTable* table = value->as<TomlTable>();
+  if (table == nullptr) {
+    problems.add(value->place, "effects: expected tables like [effects.gravity], found " + value->kind());
+    return {};
+  }
+  std::vector<std::string> names;
+  for (const EffectType& type : effect_types()) names.emplace_back(type.name);
+  for (const TomlEntry& entry : table->entries) {
+    if (std::find(names.begin(), names.end(), entry.name) == names.end()) {
+      problems.add(entry.place, fmt::format("unknown effect '{}'{}", entry.name,
+                                            did_you_mean(entry.name, names, "the effects are")));
+    }
+  }
+
+  std::vector<ReadEffect> effects;
+  for (const EffectType& type : effect_types()) {
+    const TomlValue* written = table->find(type.name);
+    if (written == nullptr) continue;
+    for (const TomlValue* item : tables_of(*written, type.repeatable)) {
+      const std::size_t before = problems.count();
+      Effect effect = type.make();
+      reader.read(*item, effect_table(type, effect));
+      effects.push_back({std::move(effect), item, problems.count() == before});
+    }
+  }
+  return effects;
+}
+
+std::vector<std::string> effect_paths(const std::vector<ReadEffect>& effects) {
+  std::map<std::string_view, int> counts, numbers;
+  for (const ReadEffect& read : effects) ++counts[read.effect.name()];
+  std::vector<std::string> paths;
+  for (const ReadEffect& read : effects) {
+    const std::string_view name = read.effect.name();
+    paths.push_back(counts[name] == 1 ? fmt::format("effects.{}", name)
+                                      : fmt::format("effects.{}.{}", name, numbers[name]++));
+  }
+  return paths;
+}
+
+void check_effects(const std::vector<ReadEffect>& effects, const SimulationSettings& settings, Problems& problems) {
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const ReadEffect& read = effects[i];
+    if (!read.good) continue;
+    const std::size_t before = problems.count();
+    const auto add = [&](std::string_view key, const std::string& sentence) {
+      problems.add(place_of(*read.table, key), key.empty()
+                                                   ? fmt::format("[effects.{}]: {}", read.effect.name(), sentence)
+                                                   : fmt::format("{}: {}", key, sentence));
+    };
+    settings.effects[i].check(settings, add);
+    if (problems.count() == before) check_start(settings, i, add);
+  }
 }
 
 }  // namespace drape

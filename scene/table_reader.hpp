@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/keys.hpp"
 #include "drape/scene/document.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/effects/effect.hpp"
 #include "scene/selection.hpp"
 #include "scene/tables.hpp"
 
@@ -61,5 +64,22 @@ const TomlValue* find_item(const TomlArray& items, std::string_view name);
 /// Returns the node with a dotted name, "cloth.transform", or null. In an array a number from 0 selects an item, and so
 /// does the item's own `name`.
 const TomlValue* find_path(const TomlValue& document, std::string_view path);
+
+/// An effect and the table that describes it.
+struct ReadEffect {
+  Effect effect;
+  const TomlValue* table;
+  bool good;  ///< true if read without a problem
+};
+
+/// Reads the tables [effects.NAME] of a document, in the order of the registry; equal names keep their document order.
+std::vector<ReadEffect> read_effects(const TomlValue& document, TableReader& reader, Problems& problems);
+
+/// Returns the key path of each effect: effects.NAME. Several effects of one name get numbers: effects.sphere.0.
+std::vector<std::string> effect_paths(const std::vector<ReadEffect>& effects);
+
+/// Lets each effect check its values against all other settings.
+/// @param settings settings that contain these effects
+void check_effects(const std::vector<ReadEffect>& effects, const SimulationSettings& settings, Problems& problems);
 
 }  // namespace drape

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "drape/scene/scene.hpp"
-#include "scene/values.hpp"
+#include "scene/values/value_kind.hpp"
 
 namespace drape {
 namespace {
@@ -12,9 +12,10 @@ namespace {
 Keys cloth_keys(ClothTable& cloth) {
   Keys keys;
   keys.add("name", &cloth.name, "",
-           "Name of the cloth: letters, digits, `_` and `-`. Each of several `[[cloth]]` needs one.");
-  keys.add("mesh", CustomValue{"mesh", &cloth.mesh}, "", "The shape that the cloth starts from.").must_be_given();
-  keys.add("rest", CustomValue{"mesh", &cloth.rest}, "",
+           "Name of the cloth: letters, digits, `_` and `-`. Each of several `[[cloth]]` needs one.")
+      .omit_from_hash();
+  keys.add("mesh", Written<MeshKind>{&cloth.mesh}, "", "The shape that the cloth starts from.").must_be_given();
+  keys.add("rest", Written<MeshKind>{&cloth.rest}, "",
            "The shape whose edge lengths are the springs' rest lengths, with the same vertices and triangles as "
            "`mesh`. Default: the starting shape.");
   keys.add("mass", &cloth.mass, "kg", "Total mass, shared equally by all vertices. Not with `density` or `material`.")
@@ -53,16 +54,17 @@ Keys cloth_keys(ClothTable& cloth) {
   keys.add("bend_stiffness", &cloth.bend_stiffness, "N/m",
            "With `spring = \"edges+bend\"`: stiffness between every other vertex. Default: `stiffness`.")
       .above(0);
-  keys.add("pins", CustomValue{"pins", &cloth.pins}, "", "Vertices that do not move.");
+  keys.add("pins", Written<PinsKind>{&cloth.pins}, "", "Vertices that do not move.");
   keys.add("velocity", &cloth.velocity, "m/s", "Initial velocity of every vertex that is not pinned.");
-  keys.add("color", &cloth.color, "", "Colour of this cloth. Default: that of [look].");
-  keys.add("texture", &cloth.texture, "", "Picture on this cloth, likewise. Needs a mesh with texture coordinates.");
+  keys.add("color", &cloth.color, "", "Colour of this cloth. Default: that of [look].").omit_from_hash();
+  keys.add("texture", &cloth.texture, "", "Picture on this cloth, likewise. Needs a mesh with texture coordinates.")
+      .omit_from_hash();
   return keys;
 }
 
 Keys transform_keys(ClothTable& cloth) {
   Keys keys;
-  keys.add("scale", CustomValue{"number or [x, y, z], above 0", &cloth.scale}, "",
+  keys.add("scale", Written<ScaleKind>{&cloth.scale}, "",
            "Scales the mesh about its origin; applied first. Without `rest` the rest lengths scale too.");
   keys.add("rotate", &cloth.rotate, "degrees", "Rotates about the fixed x axis, then y, then z.");
   keys.add("translate", &cloth.translate, "m", "Moves the mesh; applied last.");
@@ -71,16 +73,17 @@ Keys transform_keys(ClothTable& cloth) {
 
 Keys seam_keys(SeamTable& seam) {
   Keys keys;
-  const char* const form = "{ cloth = name, along = pins }";
-  keys.add("a", CustomValue{form, &seam.a}, "",
+  keys.add("a", Written<SeamSideKind>{&seam.a}, "",
            "A side: the name of its cloth, and vertices in one open row along its edges, in any order.")
       .must_be_given();
-  keys.add("b", CustomValue{form, &seam.b}, "", "The other side, of the same or of another cloth.").must_be_given();
+  keys.add("b", Written<SeamSideKind>{&seam.b}, "", "The other side, of the same or of another cloth.").must_be_given();
   keys.add("time", &seam.time, "s",
            "Time at which the seam is closed. Until then each tie becomes shorter at constant speed.")
-      .at_least(0);
+      .at_least(0)
+      .omit_from_hash();
   keys.add("reverse", &seam.reverse, "",
-           "Side b runs the other way. Otherwise it runs in the direction that keeps the ties shorter at the start.");
+           "Side b runs the other way. Otherwise it runs in the direction that keeps the ties shorter at the start.")
+      .omit_from_hash();
   return keys;
 }
 
@@ -91,7 +94,9 @@ Keys time_keys(Scene& scene) {
            "Limit on the error that a step may add to any vertex. Steps are cut into substeps; `scheme`, `tolerance` "
            "and `stop` follow, see [accuracy.md](../notes/accuracy.md#asking-for-an-accuracy).")
       .above(0);
-  keys.add("duration", &scene.duration, "s", "Length of the scene, rounded to whole steps.").at_least(0);
+  keys.add("duration", &scene.duration, "s", "Length of the scene, rounded to whole steps.")
+      .at_least(0)
+      .omit_from_hash();
   return keys;
 }
 
@@ -269,7 +274,7 @@ Keys check_keys(CheckSettings& check) {
            "Largest accepted ratio of the time of the first steps to that in the golden, both measured beside a "
            "calibration loop. Default: time is not compared.")
       .above(1);
-  keys.add("ignore", CustomValue{"[[x, y, width, height], …]", &check.ignore}, "pixels",
+  keys.add("ignore", &check.ignore, "pixels",
            "Parts of the golden pictures that are shown but not judged, measured from the top left.");
   keys.add("ignore_frames", &check.ignore_frames, "", "Frames whose pictures are shown but not judged.").at_least(0);
   return keys;
@@ -297,21 +302,31 @@ TableType seam_table(SeamTable& seam) {
 }
 
 std::vector<TableType> other_tables(Scene& scene) {
+  using enum TableType::Affects;
   std::vector<TableType> tables;
-  const auto add = [&](const char* name, const char* help, Keys keys) {
-    tables.push_back(TableType{.name = name, .help = help, .keys = std::move(keys)});
+  const auto add = [&](const char* name, TableType::Affects affects, const char* help, Keys keys) {
+    tables.push_back(TableType{.name = name, .help = help, .keys = std::move(keys), .affects = affects});
   };
-  add("time", "Time step and duration.", time_keys(scene));
-  add("integrator", "How the motion is computed.", integrator_keys(scene.simulation.integrator));
-  add("camera", "The point of view.", camera_keys(scene.camera));
-  add("look", "Appearance.", look_keys(scene.look, scene.quality));
-  add("video", "The film.", video_keys(scene.video));
-  add("caption", "Text on every frame of a film. `drape check` ignores it.", caption_keys(scene.caption));
-  add("overlay", "Curves below the film, see [captions.md](captions.md). `drape check` ignores them.",
+  add("time", motion, "Time step and duration.", time_keys(scene));
+  add("integrator", motion, "How the motion is computed.", integrator_keys(scene.simulation.integrator));
+  add("camera", picture, "The point of view.", camera_keys(scene.camera));
+  add("look", picture, "Appearance.", look_keys(scene.look, scene.quality));
+  add("video", picture, "The film.", video_keys(scene.video));
+  add("caption", nothing, "Text on every frame of a film. `drape check` ignores it.", caption_keys(scene.caption));
+  add("overlay", nothing, "Curves below the film, see [captions.md](captions.md). `drape check` ignores them.",
       overlay_keys(scene.overlay));
-  add("check", "Settings of `drape check`, see [regression.md](regression.md). Nothing else uses them.",
+  add("check", nothing, "Settings of `drape check`, see [regression.md](regression.md). Nothing else uses them.",
       check_keys(scene.check));
   return tables;
+}
+
+std::vector<std::string> tables_that_affect(TableType::Affects what) {
+  Scene scene;
+  std::vector<std::string> names;
+  for (const TableType& table : other_tables(scene)) {
+    if (table.affects == what) names.push_back(table.name);
+  }
+  return names;
 }
 
 std::vector<TableType> scene_tables(ClothTable& cloth, SeamTable& seam, Scene& scene) {
@@ -329,46 +344,6 @@ TableType effect_table(const EffectType& type, Effect& effect) {
 
 namespace {
 
-/// Name of a value's form in the reference.
-struct Form {
-  std::string operator()(const bool*) const { return "true or false"; }
-  std::string operator()(const int*) const { return "whole number"; }
-  std::string operator()(const double*) const { return "number"; }
-  std::string operator()(const std::string*) const { return "string"; }
-  std::string operator()(const std::filesystem::path*) const { return "file"; }
-  std::string operator()(const Rgb*) const { return "colour"; }
-  std::string operator()(const Choice& choice) const {
-    std::string text;
-    for (const std::string& name : choice.names) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
-    return text;
-  }
-  std::string operator()(const CustomValue& own) const { return own.form; }
-  std::string operator()(const KeyframeList& list) const {
-    std::string form;
-    for (const std::string& name : list.names) {
-      form += fmt::format("{}[{{ time, {} = [x, y, z] }}, …]", form.empty() ? "" : " or ", name);
-    }
-    return form;
-  }
-  std::string operator()(const FormulaList&) const { return "[formula, formula, formula]"; }
-  std::string operator()(const VertexSelection&) const { return "pins"; }
-  std::string operator()(const Eigen::Vector2i*) const { return "[whole number, whole number]"; }
-  std::string operator()(const Eigen::Vector3d*) const { return "[x, y, z]"; }
-  std::string operator()(const std::vector<int>*) const { return "[whole number, …]"; }
-  std::string operator()(const WarpWeft*) const { return "number or [warp, weft]"; }
-  template <class T>
-  std::string operator()(const std::optional<T>*) const {
-    return (*this)(static_cast<const T*>(nullptr));
-  }
-};
-
-/// Returns the accepted words of a key, if they are a fixed set.
-std::vector<std::string> values_of(const Key::Target& target) {
-  if (const auto* choice = std::get_if<Choice>(&target)) return choice->names;
-  if (std::holds_alternative<bool*>(target)) return {"true", "false"};
-  return {};
-}
-
 std::string range_text(const Key& key) {
   if (std::isfinite(key.minimum) && std::isfinite(key.maximum) && !key.minimum_excluded) {
     return fmt::format("{} to {}", key.minimum, key.maximum);
@@ -377,13 +352,14 @@ std::string range_text(const Key& key) {
 }
 
 KeyText text_of(const Key& key) {
-  const std::string value = std::visit(Form{}, key.target);
+  const ValueKind& kind = kind_of(key);
+  const std::string value = kind.form(key);
   const std::string range = range_text(key);
   return {.name = key.name,
           .form = range.empty() ? value : value + ", " + range,
-          .values = values_of(key.target),
+          .values = kind.words(key),
           .unit = key.unit,
-          .initial = value_text(key.target),
+          .initial = kind.text(key),
           .help = key.help,
           .required = key.required,
           .alternatives = key.alternatives};

@@ -15,6 +15,17 @@ namespace drape {
 /// A value of a document, see scene/document.hpp.
 struct TomlValue;
 
+/// A value that the reader of its table interprets, see DeferredKind: its place in the document, null if absent.
+template <class Kind>
+struct Written {
+  const TomlValue** value;
+};
+class FilesKind;
+class MeshKind;
+class PinsKind;
+class ScaleKind;
+class SeamSideKind;
+
 /// The values of [cloth] and [cloth.transform], before they become a Cloth.
 struct ClothTable {
   std::string name;  ///< empty: it is the only one
@@ -54,6 +65,7 @@ struct TableType {
   Keys keys;
   bool required = false;
   bool repeatable = false;  ///< can be written as [[name]] several times; read by its own reader
+  enum class Affects { motion, picture, nothing } affects = Affects::motion;  ///< nothing: no golden depends on it
 };
 
 /// Returns the tables of a cloth: [cloth] and [cloth.transform].
@@ -68,6 +80,9 @@ std::vector<TableType> other_tables(Scene& scene);
 /// Returns every table of a scene except its effects; the keys write to `cloth`, `seam` and `scene`. Together with
 /// effect_types() it is the only description of the format: reader, messages and reference page are made from it.
 std::vector<TableType> scene_tables(ClothTable& cloth, SeamTable& seam, Scene& scene);
+
+/// Returns the names of the other_tables() that affect this.
+std::vector<std::string> tables_that_affect(TableType::Affects what);
 
 /// Returns the table of an effect of this type; its keys write to the effect.
 TableType effect_table(const EffectType& type, Effect& effect);

@@ -23,7 +23,14 @@ void expected(const char* what, const TomlValue& value, const std::string& name,
   problems.add(value.place, fmt::format("{}: expected {}, found {}", name, what, value.kind()));
 }
 
-/// Returns the items of an array of the given size; null after reporting a problem.
+bool is_file(const std::filesystem::path& path) {
+  std::error_code error;
+  const bool whole = path.native().find('\0') == std::string::npos;  // the system ends a name at a zero byte
+  return whole && std::filesystem::is_regular_file(path, error);
+}
+
+}  // namespace
+
 const TomlArray* read_array(const TomlValue& value, const std::string& name, std::size_t size, const char* what,
                             Problems& problems) {
   const TomlArray* array = value.as<TomlArray>();
@@ -38,14 +45,6 @@ const TomlArray* read_array(const TomlValue& value, const std::string& name, std
 }
 
 std::string item_name(const std::string& name, std::size_t index) { return fmt::format("{}[{}]", name, index); }
-
-bool is_file(const std::filesystem::path& path) {
-  std::error_code error;
-  const bool whole = path.native().find('\0') == std::string::npos;  // the system ends a name at a zero byte
-  return whole && std::filesystem::is_regular_file(path, error);
-}
-
-}  // namespace
 
 std::string Range::text() const {
   std::string text;
@@ -102,36 +101,39 @@ std::optional<std::string> read_string(const TomlValue& value, const std::string
   return std::nullopt;
 }
 
-std::optional<Eigen::Vector3d> read_vector(const TomlValue& value, const std::string& name, const Range& range,
-                                           Problems& problems) {
-  const TomlArray* array = read_array(value, name, 3, "numbers", problems);
-  if (array == nullptr) return std::nullopt;
-  Eigen::Vector3d vector;
-  bool good = true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::optional<double> number = read_number((*array)[i], item_name(name, i), range, problems);
+namespace {
+
+/// Reads an array of as many numbers as the vector has.
+/// @param read reads one of them: read_number() or read_int()
+template <class Vector>
+std::optional<Vector> read_array_of(const TomlValue& value, const std::string& name, const Range& range,
+                                    const char* what, auto read, Problems& problems) {
+  Vector vector = Vector::Zero();
+  const TomlArray* array = read_array(value, name, static_cast<std::size_t>(vector.size()), what, problems);
+  bool good = array != nullptr;
+  for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
+    const auto number = read((*array)[i], item_name(name, i), range, problems);
     good = good && number;
-    vector[static_cast<Eigen::Index>(i)] = number.value_or(0);
+    if (number) vector[static_cast<Eigen::Index>(i)] = *number;
   }
   return good ? std::optional(vector) : std::nullopt;
 }
 
+}  // namespace
+
+std::optional<Eigen::Vector3d> read_vector(const TomlValue& value, const std::string& name, const Range& range,
+                                           Problems& problems) {
+  return read_array_of<Eigen::Vector3d>(value, name, range, "numbers", read_number, problems);
+}
+
 std::optional<Eigen::Vector2d> read_pair(const TomlValue& value, const std::string& name, const Range& range,
                                          Problems& problems) {
-  const TomlArray* array = read_array(value, name, 2, "numbers", problems);
-  if (array == nullptr) return std::nullopt;
-  const std::optional<double> first = read_number((*array)[0], item_name(name, 0), range, problems);
-  const std::optional<double> second = read_number((*array)[1], item_name(name, 1), range, problems);
-  return first && second ? std::optional(Eigen::Vector2d(*first, *second)) : std::nullopt;
+  return read_array_of<Eigen::Vector2d>(value, name, range, "numbers", read_number, problems);
 }
 
 std::optional<Eigen::Vector2i> read_int_pair(const TomlValue& value, const std::string& name, const Range& range,
                                              Problems& problems) {
-  const TomlArray* array = read_array(value, name, 2, "whole numbers", problems);
-  if (array == nullptr) return std::nullopt;
-  const std::optional<int> first = read_int((*array)[0], item_name(name, 0), range, problems);
-  const std::optional<int> second = read_int((*array)[1], item_name(name, 1), range, problems);
-  return first && second ? std::optional(Eigen::Vector2i(*first, *second)) : std::nullopt;
+  return read_array_of<Eigen::Vector2i>(value, name, range, "whole numbers", read_int, problems);
 }
 
 std::optional<std::vector<int>> read_ints(const TomlValue& value, const std::string& name, const Range& range,
@@ -146,103 +148,6 @@ std::optional<std::vector<int>> read_ints(const TomlValue& value, const std::str
     if (const auto number = read_int((*array)[i], item_name(name, i), range, problems)) numbers.push_back(*number);
   }
   return numbers.size() == array->size() ? std::optional(numbers) : std::nullopt;
-}
-
-std::optional<std::array<std::string, 3>> read_formulas(
-    const TomlValue& value, const std::string& name,
-    const std::function<std::optional<std::string>(const std::string&)>& problem, Problems& problems) {
-  const TomlArray* array = read_array(value, name, 3, "formulas", problems);
-  if (array == nullptr) return std::nullopt;
-  std::array<std::string, 3> formulas;
-  bool good = true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const TomlValue& item = (*array)[i];
-    const bool numeric = item.as<std::int64_t>() != nullptr || item.as<double>() != nullptr;
-    if (item.as<std::string>() == nullptr && !numeric) {
-      expected("a formula or a number", item, item_name(name, i), problems);
-      good = false;
-      continue;
-    }
-    if (numeric) {
-      const std::optional<double> number = read_number(item, item_name(name, i), {}, problems);
-      formulas[i] = fmt::format("{}", number.value_or(0));
-      good = good && number;
-      continue;
-    }
-    formulas[i] = *item.as<std::string>();
-    if (const auto wrong = problem(formulas[i])) {
-      problems.add(item.place, fmt::format("{}: '{}': {}", item_name(name, i), formulas[i], *wrong));
-      good = false;
-    }
-  }
-  return good ? std::optional(formulas) : std::nullopt;
-}
-
-namespace {
-
-/// Reads one keyframe into `list`; returns false if it is not one. `used` is the name of the values, once known.
-bool read_keyframe(const TomlValue& value, const std::string& name, const KeyframeList& list,
-                   std::optional<std::size_t>& used, Problems& problems) {
-  const TomlTable* table = value.as<TomlTable>();
-  if (table == nullptr) {
-    problems.add(value.place, fmt::format("{}: expected {{ time = …, {} = [x, y, z] }}, found {}", name,
-                                          list.names.front(), value.kind()));
-    return false;
-  }
-  const std::size_t before = problems.count();
-  std::vector<std::string> known = list.names;
-  known.insert(known.begin(), "time");
-  const TomlValue* vector = nullptr;
-  for (const TomlEntry& entry : table->entries) {
-    const auto place = static_cast<std::size_t>(std::ranges::find(known, entry.name) - known.begin());
-    if (place == known.size()) {
-      problems.add(entry.place, fmt::format("{}: unknown key '{}'{}", name, entry.name,
-                                            did_you_mean(entry.name, known, "the keys are")));
-    } else if (place > 0 && used.value_or(place - 1) != place - 1) {
-      problems.add(entry.place, fmt::format("{}: every keyframe of a list has the same key, and before this one it was "
-                                            "'{}'",
-                                            name, list.names[*used]));
-    } else if (place > 0) {
-      used = place - 1;
-      vector = &entry.value;
-    }
-  }
-  const TomlValue* time = table->find("time");
-  const std::string missing = time == nullptr     ? "time"
-                              : vector == nullptr ? fmt::format("{}", fmt::join(list.names, "' or '"))
-                                                  : "";
-  if (problems.count() == before && !missing.empty()) {
-    problems.add(value.place, fmt::format("{}: missing key '{}'", name, missing));
-  }
-  if (problems.count() != before) return false;
-  const auto at = read_number(*time, name + ".time", {.minimum = 0}, problems);
-  const auto where = read_vector(*vector, name + "." + list.names[*used], {}, problems);
-  if (!at || !where) return false;
-  if (!list.keyframes->empty() && *at <= list.keyframes->back().time) {
-    problems.add(time->place, fmt::format("{}.time: keyframes must follow each other in time, and the one before is at "
-                                          "{:g} s, found {:g}",
-                                          name, list.keyframes->back().time, *at));
-    return false;
-  }
-  list.keyframes->push_back({*at, *where});
-  return true;
-}
-
-}  // namespace
-
-void read_keyframes(const TomlValue& value, const std::string& name, const KeyframeList& list, Problems& problems) {
-  const TomlArray* array = value.as<TomlArray>();
-  if (array == nullptr || array->empty()) {
-    problems.add(value.place, fmt::format("{}: expected an array of {{ time = …, {} = [x, y, z] }}, found {}", name,
-                                          list.names.front(), array == nullptr ? value.kind() : "an empty one"));
-    return;
-  }
-  list.keyframes->clear();
-  std::optional<std::size_t> used;
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    if (!read_keyframe((*array)[i], item_name(name, i), list, used, problems)) return;
-  }
-  if (list.set_name) list.set_name(*used);
 }
 
 std::optional<std::filesystem::path> read_file_name(const TomlValue& value, const std::string& name,
@@ -328,48 +233,6 @@ std::string color_text(const Rgb& color) {
 
 namespace {
 
-struct WriteValue {
-  std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
-  std::string operator()(const int* value) const { return fmt::format("{}", *value); }
-  std::string operator()(const double* value) const { return fmt::format("{}", *value); }
-  std::string operator()(const std::string* value) const { return fmt::format("\"{}\"", *value); }
-  std::string operator()(const std::filesystem::path* value) const { return value->string(); }
-  std::string operator()(const Rgb* value) const { return fmt::format("\"{}\"", color_text(*value)); }
-  std::string operator()(const Choice& choice) const {
-    return choice.initial ? fmt::format("\"{}\"", choice.names[*choice.initial]) : "";
-  }
-  std::string operator()(const CustomValue&) const { return ""; }
-  std::string operator()(const KeyframeList& list) const {
-    std::string text;
-    for (const Keyframe& keyframe : *list.keyframes) {
-      text += fmt::format("{}{{ time = {}, {} = {} }}", text.empty() ? "[" : ", ", keyframe.time, list.names[list.name],
-                          (*this)(&keyframe.value));
-    }
-    return text.empty() ? "" : text + "]";
-  }
-  std::string operator()(const FormulaList& list) const {
-    return fmt::format("[\"{}\"]", fmt::join(*list.formulas, "\", \""));
-  }
-  std::string operator()(const VertexSelection& selection) const { return (*this)(selection.vertices); }
-  std::string operator()(const Eigen::Vector2i* value) const {
-    return fmt::format("[{}, {}]", (*value)[0], (*value)[1]);
-  }
-  std::string operator()(const Eigen::Vector3d* value) const {
-    return fmt::format("[{}, {}, {}]", (*value)[0], (*value)[1], (*value)[2]);
-  }
-  std::string operator()(const std::vector<int>* value) const {
-    return value->empty() ? "" : fmt::format("[{}]", fmt::join(*value, ", "));
-  }
-  std::string operator()(const WarpWeft* value) const {
-    if (value->isotropic()) return (*this)(&value->warp);
-    return fmt::format("[{}, {}]", (*this)(&value->warp), (*this)(&value->weft));
-  }
-  template <class T>
-  std::string operator()(const std::optional<T>* value) const {
-    return *value ? (*this)(&**value) : "";
-  }
-};
-
 std::string number_text(double number) {
   const std::string text = fmt::format("{}", number);
   // Add a point: otherwise TOML would read an integer, whose range is smaller.
@@ -421,7 +284,5 @@ std::string toml_literal(const TomlValue& value) {
   if (const double* number = value.as<double>()) return number_text(*number);
   return "1970-01-01";  // unused: no key accepts a date
 }
-
-std::string value_text(const Key::Target& target) { return std::visit(WriteValue{}, target); }
 
 }  // namespace drape

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -11,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/keys.hpp"
 #include "drape/core/rgb.hpp"
 #include "drape/scene/document.hpp"
 
@@ -36,6 +33,13 @@ inline constexpr double furthest_place = 1e90;
 // Each function reads a value of one kind. Whole numbers convert to numbers; nothing else is converted, and nan or
 // infinite numbers are rejected. A wrong value is added to `problems` with its place and `name`; nothing is returned.
 
+/// Returns the items of an array of the given size; null after a problem.
+const TomlArray* read_array(const TomlValue& value, const std::string& name, std::size_t size, const char* what,
+                            Problems& problems);
+
+/// Returns "name[index]".
+std::string item_name(const std::string& name, std::size_t index);
+
 std::optional<bool> read_bool(const TomlValue& value, const std::string& name, Problems& problems);
 std::optional<int> read_int(const TomlValue& value, const std::string& name, const Range& range, Problems& problems);
 std::optional<double> read_number(const TomlValue& value, const std::string& name, const Range& range,
@@ -58,15 +62,6 @@ std::optional<Eigen::Vector2i> read_int_pair(const TomlValue& value, const std::
 std::optional<std::vector<int>> read_ints(const TomlValue& value, const std::string& name, const Range& range,
                                           Problems& problems);
 
-/// Reads an array of three formulas; a number is one too.
-/// @param problem see FormulaList
-std::optional<std::array<std::string, 3>> read_formulas(
-    const TomlValue& value, const std::string& name,
-    const std::function<std::optional<std::string>(const std::string&)>& problem, Problems& problems);
-
-/// Reads keyframes: a non-empty array of { time, NAME = [x, y, z] } with times increasing from 0 on.
-void read_keyframes(const TomlValue& value, const std::string& name, const KeyframeList& list, Problems& problems);
-
 /// Reads a file name, relative to `folder` (of the scene), otherwise to textures/ of the data folder. An empty string
 /// stays empty: no file.
 std::optional<std::filesystem::path> read_file_name(const TomlValue& value, const std::string& name,
@@ -83,12 +78,6 @@ std::optional<Rgb> parse_color(std::string_view text);
 
 /// Returns "#rrggbb"; each channel is rounded to the nearest of 0…255.
 std::string color_text(const Rgb& color);
-
-/// Returns the value of a key's target as scene text; empty for no value and for custom forms. Different values have
-/// different texts.
-std::string value_text(const Key::Target& target);
-
-struct TomlValue;
 
 /// Returns a value of a document as TOML, on one line.
 std::string toml_literal(const TomlValue& value);

@@ -154,8 +154,8 @@ bool allows_overlap(const Effect& effect) {
   Effect copy = effect;
   Keys keys;
   copy.describe(keys);
-  return std::ranges::any_of(
-      keys.all(), [](const Key& key) { return key.name == "allow_overlap" && *std::get<bool*>(key.target); });
+  return std::ranges::any_of(keys.all(),
+                             [](const Key& key) { return key.name == "allow_overlap" && *key.pointer<bool>(); });
 }
 
 std::optional<Overlap> find_overlap(const SimulationSettings& settings, std::size_t effect, const Vertices& x,

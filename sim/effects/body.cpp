@@ -30,16 +30,16 @@ struct DrawnBody final : ColliderMotion {
 };
 
 void describe_shapes(Keys& keys, std::optional<BodyShape>& shape) {
-  const auto add = [&](BodyShape::Kind kind, const char* form, const char* help) {
+  const auto add = [&](BodyShape::Kind kind, const char* help) {
     const std::string& name = body_shape_names()[static_cast<std::size_t>(kind)];
-    keys.add(name, CustomValue{form, BodyShapeKey{kind, &shape}}, "m", help);
+    keys.add(name, BodyShapeKey{kind, &shape}, "m", help);
   };
   using Kind = BodyShape::Kind;
-  add(Kind::cylinder, "{ radius, height }", "A cylinder around `center`, its axis along z; `segments` sides, 64.");
-  add(Kind::capsule, "{ radius, height }", "The same with round ends, within `height`.");
-  add(Kind::cone, "{ radius, height, top }", "A cone, or with a radius `top` of its upper end a frustum.");
-  add(Kind::plane, "{ width, depth }", "A rectangle across z with two sides.");
-  add(Kind::sphere, "{ radius }", "A ball of triangles; `[effects.sphere]` is a smooth one.");
+  add(Kind::cylinder, "A cylinder around `center`, its axis along z; `segments` sides, 64.");
+  add(Kind::capsule, "The same with round ends, within `height`.");
+  add(Kind::cone, "A cone, or with a radius `top` of its upper end a frustum.");
+  add(Kind::plane, "A rectangle across z with two sides.");
+  add(Kind::sphere, "A ball of triangles; `[effects.sphere]` is a smooth one.");
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ void Body::describe(Keys& keys) {
   keys.add("box", &box, "m", "Sides of a box around `center`.").must_be_given_unless(std::move(others)).above(0);
   describe_shapes(keys, shape);
   keys.add(
-      "file", CustomValue{"file", &mesh}, "",
+      "file", &mesh, "",
       "Mesh file instead, which may move: as for a cloth, or an OBJ sequence, `\"arm/{frame:04}.obj\"`; or `{ file, "
       "prim, up, fps }`. Its coordinates are relative to `center`.");
   keys.add("prim", &prim, "", "Mesh of a USD file that has several: \"/World/arm\".");

@@ -36,7 +36,7 @@ void MovingPins::describe(Keys& keys) {
       "Angles over time about the fixed x axis, then y, then z, around the pins' centroid, which `keyframes` moves. "
       "They start at 0 and are interpolated one by one: 720 is two turns.");
   keys.add(
-      "follow", CustomValue{"mesh that moves", &follow}, "",
+      "follow", &follow, "",
       "A mesh that they hold on to instead, `\"body/{frame:04}.obj\"` or `{ file, prim }`: each pin keeps its place "
       "beside the nearest triangle at the start.");
   keys.choice("interpolation", interpolation, {"linear", "smooth"},
@@ -44,7 +44,7 @@ void MovingPins::describe(Keys& keys) {
   keys.add("release", &release, "s",
            "Time at which they are released, with the velocity they have then. Default: never.")
       .at_least(0);
-  keys.add("cloth", &cloth, "", "The name of the cloth that has these pins. Needed if there are several.");
+  keys.add("cloth", ClothName{&cloth}, "", "The name of the cloth that has these pins. Needed if there are several.");
 }
 
 void MovingPins::check(const SimulationSettings& settings, const ProblemSink& problem) const {

@@ -8,7 +8,7 @@
 namespace drape {
 
 void describe_cloth(Keys& keys, std::string& name) {
-  keys.add("cloth", &name, "", "The name of the only cloth that it acts on. Default: all.");
+  keys.add("cloth", ClothName{&name}, "", "The name of the only cloth that it acts on. Default: all.");
 }
 
 void check_cloth(const std::string& name, const SimulationSettings& settings, const ProblemSink& problem) {

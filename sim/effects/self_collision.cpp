@@ -16,7 +16,7 @@ void SelfCollision::describe(Keys& keys) {
   keys.add("thickness", &thickness, "m", "Distance kept between layers of the cloth.").above(0);
   describe_friction(keys, friction);
   describe_overlap(keys, allow_overlap);
-  keys.add("contact", CustomValue{"[[cloth, cloth, { friction = number }], …]", &contact}, "",
+  keys.add("contact", &contact, "",
            "Friction between two named cloths, instead of `friction`. A name given twice: of a cloth with itself.");
   keys.replace("repulsion", "layers that are too near part at 20 times what is missing per second: omit it");
   keys.replace("iterations", "contact is solved for until it holds: omit it");

@@ -76,7 +76,7 @@ void Sphere::describe(Keys& keys) {
            "outward acceleration per metre of depth within its reach, evaluated once per step. Default: 8000.")
       .at_least(0);
   describe_motion(keys, "center", velocity, orbit_period, orbit_center, orbit_axis, keyframes, interpolation);
-  keys.add("track", CustomValue{"file", &track}, "",
+  keys.add("track", &track, "",
            "ASCII USD file whose first moving Mesh or Sphere it follows, position and size. The file's start time code "
            "is 0 s.");
   describe_overlap(keys, allow_overlap);

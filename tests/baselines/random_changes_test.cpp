@@ -16,6 +16,7 @@
 #include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/visit_target.hpp"
 
 namespace drape::random_changes {
 namespace {
@@ -71,7 +72,7 @@ class Change {
     effect.describe(keys);
     for (int attempt = 0; attempt < 20; ++attempt) {
       const Key& key = keys.all()[static_cast<std::size_t>(below(keys.all().size()))];
-      if (!std::visit([&](const auto& target) { return change(target); }, key.target)) continue;
+      if (!test::visit_target<bool>(key, [&](const auto& target) { return change(target); })) continue;
       Effects after;
       for (std::size_t i = 0; i < before.size(); ++i) after.add(i == index ? effect : before[i]);
       scene_.simulation.effects = after;

@@ -5,8 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <variant>
+#include <optional>
 
+#include "drape/core/rgb.hpp"
+#include "drape/core/warp_weft.hpp"
 #include "scene/tables.hpp"
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
@@ -92,15 +94,14 @@ std::vector<std::string> wrong_values(const Key& key) {
   std::vector<std::string> wrong{"1979-05-27", "{ nonsense = 1 }"};
   std::size_t count = 0;  // of the key's numbers
   bool whole = false;
-  const bool woven = std::holds_alternative<std::optional<WarpWeft>*>(key.target);  // one number or two
-  if (woven || std::holds_alternative<double*>(key.target) ||
-      std::holds_alternative<std::optional<double>*>(key.target)) {
+  const bool woven = key.pointer<std::optional<WarpWeft>>() != nullptr;  // one number or two
+  if (woven || key.pointer<double>() != nullptr || key.pointer<std::optional<double>>() != nullptr) {
     count = 1;
-  } else if (std::holds_alternative<int*>(key.target) || std::holds_alternative<std::optional<int>*>(key.target)) {
+  } else if (key.pointer<int>() != nullptr || key.pointer<std::optional<int>>() != nullptr) {
     count = 1, whole = true;
-  } else if (std::holds_alternative<Eigen::Vector2i*>(key.target)) {
+  } else if (key.pointer<Eigen::Vector2i>() != nullptr) {
     count = 2, whole = true;
-  } else if (std::holds_alternative<Eigen::Vector3d*>(key.target)) {
+  } else if (key.pointer<Eigen::Vector3d>() != nullptr) {
     count = 3;
   }
   const auto of = [&](double value) {
@@ -116,9 +117,9 @@ std::vector<std::string> wrong_values(const Key& key) {
     if (std::isfinite(key.maximum)) wrong.push_back(of(key.maximum + 1));
   }
   if (count > 1 || woven) wrong.emplace_back("[1]");
-  if (std::holds_alternative<Choice>(key.target)) wrong.emplace_back("\"nonsense\"");
-  if (std::holds_alternative<Rgb*>(key.target)) wrong.emplace_back("\"#12345\"");
-  if (std::holds_alternative<bool*>(key.target)) wrong.emplace_back("1");
+  if (key.as<Choice>() != nullptr) wrong.emplace_back("\"nonsense\"");
+  if (key.pointer<Rgb>() != nullptr) wrong.emplace_back("\"#12345\"");
+  if (key.pointer<bool>() != nullptr) wrong.emplace_back("1");
   return wrong;
 }
 

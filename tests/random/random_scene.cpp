@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <any>
 #include <array>
 #include <cmath>
 #include <string_view>
 #include <vector>
 
-#include "drape/sim/tracks.hpp"
 #include "scene/tables.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/visit_target.hpp"
 
 namespace drape::test {
 namespace {
@@ -79,7 +78,7 @@ class Writer {
     for (const Key& key : table.keys.all()) {
       if (key.name == "cloth" || key.name == "contact") continue;  // names of several cloths
       if (wild() ? !key.required && random_.number() > 0.35 : !wanted(table.name, key, motion)) continue;
-      const std::string text = std::visit([&](const auto& target) { return value(key, target); }, key.target);
+      const std::string text = visit_target<std::string>(key, [&](const auto& target) { return value(key, target); });
       if (key.name == "method") explicit_ = text == "\"semi-implicit\"" || text == "\"verlet\"";
       if (!text.empty()) text_ += fmt::format("{} = {}\n", key.name, text);
     }
@@ -182,9 +181,8 @@ class Writer {
     const int count = static_cast<int>(choice.names.size()) - (contact ? 1 : 0);
     return '"' + choice.names[static_cast<std::size_t>(random_.below(count))] + '"';
   }
-  std::string value(const Key&, const CustomValue& form) {
-    const bool track = std::any_cast<std::shared_ptr<const SphereTrack>*>(&form.target) != nullptr;
-    return track && random_.number() < wild_ ? "\"nowhere.usda\"" : "";
+  std::string value(const Key&, const std::shared_ptr<const SphereTrack>*) {
+    return random_.number() < wild_ ? "\"nowhere.usda\"" : "";
   }
   std::string value(const Key&, const KeyframeList& list) {
     std::string text;

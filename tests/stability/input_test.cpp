@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "drape/core/warp_weft.hpp"
 #include "scene/tables.hpp"
 #include "sim/stability.hpp"
 #include "tests/support/scene_folder.hpp"
@@ -15,16 +16,15 @@ namespace {
 /// Returns a key's value with such a number in it; empty if it has no numbers.
 std::string with_number(const Key& key, const std::string& number) {
   std::string vector = "[0, " + number + ", 0]";
-  if (std::holds_alternative<double*>(key.target) || std::holds_alternative<std::optional<double>*>(key.target) ||
-      std::holds_alternative<std::optional<WarpWeft>*>(key.target)) {
+  if (key.pointer<double>() != nullptr || key.pointer<std::optional<double>>() != nullptr ||
+      key.pointer<std::optional<WarpWeft>>() != nullptr) {
     return number;
   }
-  if (std::holds_alternative<Eigen::Vector3d*>(key.target) ||
-      std::holds_alternative<std::optional<Eigen::Vector3d>*>(key.target)) {
+  if (key.pointer<Eigen::Vector3d>() != nullptr || key.pointer<std::optional<Eigen::Vector3d>>() != nullptr) {
     return vector;
   }
-  if (std::holds_alternative<FormulaList>(key.target)) return vector;
-  if (const auto* list = std::get_if<KeyframeList>(&key.target)) {
+  if (key.as<FormulaList>() != nullptr) return vector;
+  if (const auto* list = key.as<KeyframeList>()) {
     return "[{ time = 0, " + list->names.front() + " = " + vector + " }]";
   }
   return {};

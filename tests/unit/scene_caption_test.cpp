@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "drape/scene/scene.hpp"
-#include "scene/caption.hpp"
+#include "scene/scene_values.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape::scene_caption {

@@ -117,6 +117,10 @@ TEST(SceneOverrides, ReachItemsOfAnArrayThatIsLeftToItsDefault) {
   EXPECT_EQ(folder.problems(least_scene, {"camera.position.0=1"}),
             "--set camera.position.0=1: camera.position has no items until it is given: set all of it, "
             "camera.position=…");
+  EXPECT_EQ(folder.problems(least_scene, {"effects.field.acceleration.0=x"}),
+            "--set effects.field.acceleration.0=x: effects.field.acceleration has no items until it is given: set all "
+            "of it, effects.field.acceleration=…\n"
+            "--set effects.field.acceleration.0=x: missing key 'acceleration' in [effects.field]");
 }
 
 TEST(SceneOverrides, CanRepairAFile) {

@@ -192,12 +192,4 @@ std::string physics_hash(const std::vector<SceneValue>& values);
 std::string physics_difference(const std::vector<SceneValue>& a, const std::vector<SceneValue>& b,
                                const std::string& name);
 
-struct TableType;
-struct ReadEffect;
-
-/// Returns the part of physics_values() that tables contain.
-/// @param folder folder of the files that effects name
-std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, const std::vector<ReadEffect>& effects,
-                                          const std::filesystem::path& folder);
-
 }  // namespace drape

@@ -90,7 +90,7 @@ struct BodyShape {
   bool operator==(const BodyShape&) const = default;
 };
 
-/// The key of a body that gives it a shape of this kind; the target of an CustomValue.
+/// The key of a body that gives it a shape of this kind; the target of a Key.
 struct BodyShapeKey {
   BodyShape::Kind kind;
   std::optional<BodyShape>* shape;
