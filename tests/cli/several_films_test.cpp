@@ -1,5 +1,4 @@
-// Several scenes in one command: the next one is drawn while films of the previous are completed, without visible
-// effect.
+// Several scenes in one command: two films are made at once, without visible effect.
 
 #include <gtest/gtest.h>
 
