@@ -33,6 +33,11 @@ struct Watched {
 
 class WatchPage : public test::InBrowser {
  protected:
+  /// Saves a file in one step, so that a session never sees it half-written, which it would draw as a scene of its own.
+  void save(const std::string& name, const std::string& text) {
+    std::filesystem::rename(put(path(name + ".new"), text), path(name));
+  }
+
   /// Returns the colour in the middle of the film's picture: red, green, blue.
   std::vector<int> middle() {
     return browser_->run(
@@ -46,7 +51,7 @@ class WatchPage : public test::InBrowser {
 const char* const up_to_date = "document.getElementById('state').textContent === 'up to date'";
 
 TEST_F(WatchPage, ShowsAChangeAMistakeAndItsMend) {
-  put(path("flag.toml"), scene + "color = \"red\"\n");
+  save("flag.toml", scene + "color = \"red\"\n");
   const Watched watched(path("flag.toml"));
   browser_->run("location.href = '" + watched.server.address() + "'");
   const std::string drawn = std::string(up_to_date) +
@@ -57,15 +62,15 @@ TEST_F(WatchPage, ShowsAChangeAMistakeAndItsMend) {
   EXPECT_NE(browser_->run("return document.body.innerText").get<std::string>().find("flag is drawn"),
             std::string::npos);
 
-  put(path("flag.toml"), scene + "color = \"blue\"\n");
+  save("flag.toml", scene + "color = \"blue\"\n");
   wait_for("document.getElementById('film').src.endsWith('?2') && " + drawn);
   EXPECT_GT(middle()[2], 2 * middle()[0]) << "it is blue";
 
-  put(path("flag.toml"), scene + "colour = \"blue\"\n");
+  save("flag.toml", scene + "colour = \"blue\"\n");
   wait_for("document.getElementById('errors').textContent.includes('flag.toml:13:1: unknown key')");
   EXPECT_EQ(browser_->run("return document.getElementById('film').className"), "old");
 
-  put(path("flag.toml"), scene + "color = \"lime\"\n");
+  save("flag.toml", scene + "color = \"lime\"\n");
   wait_for("document.getElementById('film').src.endsWith('?3') && " + drawn);
   EXPECT_EQ(browser_->run("return document.getElementById('errors').textContent"), "");
   EXPECT_GT(middle()[1], 2 * middle()[0]) << "it is green";
@@ -73,22 +78,22 @@ TEST_F(WatchPage, ShowsAChangeAMistakeAndItsMend) {
 
 // Browsers show a broken picture for an image without a file.
 TEST_F(WatchPage, ShowsNoPictureBeforeTheFirstFilm) {
-  put(path("flag.toml"), scene + "colour = \"red\"\n");
+  save("flag.toml", scene + "colour = \"red\"\n");
   const Watched watched(path("flag.toml"));
   browser_->run("location.href = '" + watched.server.address() + "'");
   wait_for("document.getElementById('errors').textContent.includes('unknown key')");
   const std::string display = "return getComputedStyle(document.getElementById('film')).display";
   EXPECT_EQ(browser_->run(display), "none");
-  put(path("flag.toml"), scene + "color = \"red\"\n");
+  save("flag.toml", scene + "color = \"red\"\n");
   wait_for("document.getElementById('film').src.endsWith('?1')");
   EXPECT_EQ(browser_->run(display), "block");
 }
 
 TEST_F(WatchPage, SeesAMeshThatIsSavedAndStopsWhatIsRunning) {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 0 ";
-  put(path("cloth.obj"), triangle + "1\nf 1 2 3\n");
+  save("cloth.obj", triangle + "1\nf 1 2 3\n");
   const std::string own = "[cloth]\nmesh = \"cloth.obj\"\nstiffness = 50\n[time]\nstep = 0.02\nduration = ";
-  put(path("a.toml"), own + "0.1\n[video]\nsize = [32, 32]\n");
+  save("a.toml", own + "0.1\n[video]\nsize = [32, 32]\n");
   Watched watched(path("a.toml"));
   const auto wait_for_film = [&](int number) {
     for (int i = 0; i < 600 && watched.session.film().film_number < number; ++i) {
@@ -97,13 +102,13 @@ TEST_F(WatchPage, SeesAMeshThatIsSavedAndStopsWhatIsRunning) {
     EXPECT_EQ(watched.session.film().film_number, number);
   };
   wait_for_film(1);
-  put(path("cloth.obj"), triangle + "2\nf 1 2 3\n");
+  save("cloth.obj", triangle + "2\nf 1 2 3\n");
   wait_for_film(2);
-  put(path("a.toml"), own + "1e5\n[video]\nspeed = 1e5\nsize = [32, 32]\n");  // takes minutes
+  save("a.toml", own + "1e5\n[video]\nspeed = 1e5\nsize = [32, 32]\n");  // takes minutes
   for (int i = 0; i < 600 && watched.session.progress().total < 1'000'000; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
-  put(path("a.toml"), own + "0.1\n[video]\nsize = [32, 32]\n");
+  save("a.toml", own + "0.1\n[video]\nsize = [32, 32]\n");
   wait_for_film(3);
 }
 
