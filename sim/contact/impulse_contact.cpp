@@ -14,6 +14,7 @@ constexpr int most_contact_rounds = 10;  // searches for contacts before collidi
 constexpr int most_impulse_passes = 60;  // per round
 constexpr int most_held_rounds = 60;     // rounds after which all zones are joined
 constexpr double settled_share = 1e-3;   // convergence tolerance of a pass, as a fraction of the contact distance
+constexpr double ended_share = 1e-2;  // largest change of a last pass over end velocities, as a fraction of the first's
 constexpr double near_share = 0.1;  // largest move of a solve without a new search, as a fraction of the least distance
 constexpr double least_correction = 1e-9;  // added to the tolerance of a pass [m]
 constexpr double closed_gap = 1e-7;        // largest gap of a weld [m]
@@ -264,8 +265,9 @@ void ImpulseContact::finish(Vertices& v) {
   std::erase_if(impulses_,
                 [](const Impulse& impulse) { return impulse.contact.force.isZero(0) || impulse.bounce.struck > 0; });
   for (Impulse& impulse : impulses_) impulse.contact.force.setZero();
+  double first = 0;  // largest change of a first pass
   for (int pass = 0; pass < most_impulse_passes; ++pass) {
-    bool moved = false;
+    double most = 0;
     for (Impulse& impulse : impulses_) {
       ContactConstraint& contact = impulse.contact;
       const Eigen::Vector3d speed = contact.gather(v) + contact.carried / flight_.h;
@@ -273,9 +275,10 @@ void ImpulseContact::finish(Vertices& v) {
       if (change.isZero(0)) continue;
       contact.force += change;
       push(contact, change, v);
-      if (flight_.h * impulse.compliance * change.norm() > tolerance_of(contact)) moved = true;
+      most = std::max(most, impulse.compliance * change.norm());
     }
-    if (!moved) return;
+    if (pass == 0) first = most;
+    if (most <= ended_share * first || flight_.h * most <= least_correction) return;
   }
 }
 
