@@ -1,7 +1,6 @@
 #include "check/check_scene.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -62,7 +61,7 @@ class SceneCheck {
     if (!has_golden(result_.golden)) {
       miss();
     } else if (options_.update == UpdateMode::all) {
-      update("recorded again");
+      update(FindingKind::recorded_again);
     } else {
       compare();
     }
@@ -73,20 +72,20 @@ class SceneCheck {
   void miss() {
     result_.verdict = SceneVerdict::missing;
     if (options_.update == UpdateMode::none || overridden()) {
-      result_.findings.push_back("there is no golden to compare with");
+      add(FindingKind::no_golden);
     } else if (options_.update == UpdateMode::missing) {
       bless_scene(scene_, settings_, options_.backend, stop_, progress_, recorded_);
-      result_.findings.push_back("there was no golden to compare with; it has now been recorded: look at it");
+      add(FindingKind::first_golden);
     } else {
-      update("recorded");
+      update(FindingKind::recorded);
     }
   }
 
-  void update(const char* what) {
+  void update(FindingKind what) {
     const auto blessing = bless_scene(scene_, settings_, options_.backend, stop_, progress_, recorded_);
     if (!blessing) return;
     result_.verdict = SceneVerdict::updated;
-    result_.findings.insert(result_.findings.begin(), fmt::format("the golden was {}", what));
+    add(what);
   }
 
   void compare() {
@@ -98,28 +97,31 @@ class SceneCheck {
     frames_ = chosen_frames(golden_, options_.frames, result_.golden);
     result_.recorded_at = golden_.date;
     result_.recorded_on = golden_.machine;
+    result_.checked_on = this_machine({});
     result_.ignored = covered_part(settings_.ignore, golden_.size);
     result_.scene_changed = golden_.scene_digest != digest_without_overrides();
 
-    const std::string another_motion = motion_mismatch(scene_, golden_);
-    const std::string other_pictures = picture_mismatch(scene_, settings_, golden_, !options_.frames.empty());
-    if (another_motion.empty()) {
-      compare_window_motion();
+    const std::optional<Difference> another_motion = motion_mismatch(scene_, golden_);
+    const std::optional<Difference> other_pictures =
+        picture_mismatch(scene_, settings_, golden_, !options_.frames.empty());
+    if (another_motion) {
+      result_.windows.motion = MotionVerdict::changed;
+      add(FindingKind::incomparable, {}, *another_motion);
     } else {
-      fail_motion(another_motion);
+      compare_window_motion();
     }
     if (!stop_.stop_requested()) {
-      if (other_pictures.empty()) {
-        compare_golden_pictures();
+      if (other_pictures) {
+        result_.windows.picture = PictureVerdict::changed;
+        add(FindingKind::incomparable, {}, *other_pictures);
       } else {
-        fail_pictures(other_pictures);
+        compare_golden_pictures();
       }
     }
-    result_.film = fmt::format("{}", fmt::join(film_mismatch(scene_, settings_, golden_), "; "));
-    if (!result_.film.empty()) result_.findings.push_back(result_.film);
-    if (another_motion.empty()) compare_time();
-    if (options_.end_to_end && recorded_ == nullptr && another_motion.empty() && other_pictures.empty() &&
-        !stop_.stop_requested()) {
+    result_.film = film_mismatch(scene_, settings_, golden_);
+    if (!result_.film.empty()) add(FindingKind::film);
+    if (!another_motion) compare_time();
+    if (options_.end_to_end && recorded_ == nullptr && !another_motion && !other_pictures && !stop_.stop_requested()) {
       compare_end_to_end();
     }
     conclude();
@@ -133,9 +135,8 @@ class SceneCheck {
     const auto text = [](Method method, std::optional<int> substeps) {
       return method_name(method) + (substeps ? fmt::format(" in {} substeps", *substeps) : "");
     };
-    result_.findings.push_back(fmt::format(
-        "the golden was recorded with {}, and is compared with that; today the scene has {}: `drape bless` takes it",
-        text(recorded.method, recorded.substeps), text(integrator.method, integrator.substeps)));
+    result_.findings.push_back(
+        {FindingKind::method, text(integrator.method, integrator.substeps), text(recorded.method, recorded.substeps)});
     integrator.method = recorded.method;
     integrator.substeps = recorded.substeps;
     const bool solved = scene_.simulation.accuracy && !is_explicit(integrator.method);
@@ -154,8 +155,7 @@ class SceneCheck {
     if (!order) return;
     recorded_->set_order(*order);
     cloth = in_order(std::move(cloth), *order);
-    result_.findings.emplace_back(
-        "the vertices are in another order than the golden's, and are matched by the first frame");
+    add(FindingKind::vertex_order);
   }
 
   [[nodiscard]] bool overridden() const { return !options_.overrides.empty(); }
@@ -191,18 +191,13 @@ class SceneCheck {
   /// Compares times of equal instruction sets only: one with half the vector width may take twice as long.
   void compare_time() {
     if (!settings_.time || !golden_.time || stop_.stop_requested() || recorded_ != nullptr) return;
-    if (golden_.machine.kernels != instruction_set()) {
-      result_.findings.push_back(
-          fmt::format("time was not compared: the golden was recorded with {}, and {} is used here",
-                      golden_.machine.kernels, instruction_set()));
-      return;
-    }
+    if (golden_.machine.kernels != result_.checked_on.kernels) return add(FindingKind::not_timed);
     try {
       result_.time = time_mismatch(scene_, *golden_.time, *settings_.time, stop_);
     } catch (const DivergedError&) {
       return;  // reported with the motion
     }
-    if (!result_.time.empty()) result_.findings.push_back(result_.time);
+    if (result_.time) add(FindingKind::slow);
   }
 
   void compare_window_motion() {
@@ -215,12 +210,23 @@ class SceneCheck {
       result_.windows.windows = compare_windows(scene_.simulation, golden_, settings_.motion_tolerance,
                                                 thread_count(options_), stop_, [this] { ++progress_.done; });
     }
-    for (const WindowResult& window : result_.windows.windows) {
-      result_.windows.motion = std::max(result_.windows.motion, window.verdict);
+    judge_motion(result_.windows, FindingKind::motion);
+  }
+
+  /// @param kind finding for a changed motion
+  void judge_motion(Comparison& comparison, FindingKind kind) {
+    for (const WindowResult& window : comparison.windows) {
+      comparison.motion = std::max(comparison.motion, window.verdict);
     }
-    if (result_.windows.motion == MotionVerdict::changed) {
-      result_.findings.push_back(describe_motion(result_.windows.windows));
+    if (comparison.motion == MotionVerdict::changed) add(kind);
+  }
+
+  /// @param kind finding for changed pictures
+  void judge_pictures(Comparison& comparison, FindingKind kind) {
+    for (const FrameResult& frame : comparison.frames) {
+      if (frame.judged) comparison.picture = std::max(comparison.picture, frame.difference.verdict);
     }
+    if (comparison.picture == PictureVerdict::changed) add(kind);
   }
 
   /// Recomputes the camera views by a run of the motion, if the golden views no longer hold.
@@ -241,27 +247,9 @@ class SceneCheck {
     place_camera();
     if (stop_.stop_requested()) return;
     DrawFrames drawing(scene_, golden_.size, options_.backend);
-    result_.renderer = drawing.renderer();
+    result_.checked_on.renderer = drawing.renderer();
     result_.windows.frames = drawing.compare(frames_, result_.golden, settings_, stop_, progress_);
-    worst_picture(result_.windows);
-  }
-
-  void worst_picture(Comparison& comparison) {
-    int changed = 0;
-    const FrameResult* worst = nullptr;
-    for (const FrameResult& frame : comparison.frames) {
-      if (!frame.judged) continue;
-      comparison.picture = std::max(comparison.picture, frame.difference.verdict);
-      if (frame.difference.verdict != PictureVerdict::changed) continue;
-      ++changed;
-      if (worst == nullptr || frame.difference.max_flip > worst->difference.max_flip) worst = &frame;
-    }
-    if (worst == nullptr) return;
-    const PictureDifference& d = worst->difference;
-    result_.findings.push_back(fmt::format(
-        "{} of {} pictures changed{}: frame {} by up to {} of 255 in {:.3g} % of the pixels, FLIP error up to {:.3f}{}",
-        changed, comparison.frames.size(), &comparison == &result_.windows ? "" : " end to end", worst->frame,
-        d.largest_channel, 100 * d.fraction, d.max_flip, worst->kind.empty() ? "" : "; it is " + worst->kind));
+    judge_pictures(result_.windows, FindingKind::pictures);
   }
 
   void compare_end_to_end() {
@@ -269,15 +257,12 @@ class SceneCheck {
     if (!recorded) return;
     Comparison& whole = result_.end_to_end.emplace();
     whole.windows = compare_whole(scene_.simulation, golden_, *recorded, settings_.motion_tolerance);
-    for (const WindowResult& window : whole.windows) whole.motion = std::max(whole.motion, window.verdict);
-    if (whole.motion == MotionVerdict::changed) {
-      result_.findings.push_back("end to end, " + describe_motion(whole.windows));
-    }
+    judge_motion(whole, FindingKind::whole_motion);
     DrawFrames drawing(scene_, golden_.size, options_.backend);
     std::vector<GoldenFrame> frames = chosen_frames(*recorded, options_.frames, result_.golden);
     for (std::size_t i = 0; i < frames.size(); ++i) frames[i].pixels = frames_[i].pixels;
     whole.frames = drawing.compare(frames, result_.golden, settings_, stop_, progress_);
-    worst_picture(whole);
+    judge_pictures(whole, FindingKind::whole_pictures);
     find_first_bad(whole);
   }
 
@@ -296,13 +281,8 @@ class SceneCheck {
     }
   }
 
-  void fail_motion(std::string why) {
-    result_.windows.motion = MotionVerdict::changed;
-    result_.findings.push_back(std::move(why));
-  }
-  void fail_pictures(std::string why) {
-    result_.windows.picture = PictureVerdict::changed;
-    result_.findings.push_back(std::move(why));
+  void add(FindingKind kind, std::string text = {}, Difference difference = {}) {
+    result_.findings.push_back({.kind = kind, .text = std::move(text), .difference = std::move(difference)});
   }
 
   void conclude() {
@@ -311,26 +291,18 @@ class SceneCheck {
       return c.motion == MotionVerdict::changed || c.picture == PictureVerdict::changed;
     };
     const bool changed = bad(result_.windows) || (result_.end_to_end && bad(*result_.end_to_end)) ||
-                         !result_.film.empty() || !result_.time.empty();
+                         !result_.film.empty() || result_.time;
     result_.verdict = changed ? SceneVerdict::changed : SceneVerdict::passed;
     if (changed && result_.windows.motion != MotionVerdict::changed) {
       if (result_.windows.picture == PictureVerdict::changed) {
-        result_.findings.emplace_back("the motion did not change");
+        add(FindingKind::same_motion);
       } else if (!result_.end_to_end || !bad(*result_.end_to_end)) {
-        result_.findings.emplace_back("the motion and the compared pictures did not change");
+        add(FindingKind::same_windows);
       }
     }
-    result_.elsewhere = name_other_machine(golden_.machine, this_machine(result_.renderer));
-    if (changed && !result_.elsewhere.empty()) {
-      result_.findings.push_back("the golden was recorded " + result_.elsewhere);
-    }
-    if (changed && result_.scene_changed) {
-      result_.findings.push_back("the scene file has changed since the golden was recorded");
-    }
-    if (changed && overridden()) {
-      result_.findings.push_back(fmt::format(
-          "it was checked with {}: to make that golden, edit the scene and check it again", options_.overrides));
-    }
+    if (changed && !name_other_machine(result_.recorded_on, result_.checked_on).empty()) add(FindingKind::elsewhere);
+    if (changed && result_.scene_changed) add(FindingKind::scene_changed);
+    if (changed && overridden()) add(FindingKind::overrides, options_.overrides);
     if (!changed || options_.artefacts.empty()) return;
     if (!stop_.stop_requested()) {
       DifferenceAnimation made =
@@ -349,7 +321,7 @@ class SceneCheck {
     try {
       recording = record_scene(scene_, settings_, options_.backend, stop_, progress_, recorded_);
     } catch (const DivergedError& diverged) {
-      result_.findings.push_back(fmt::format("there is nothing to accept: {}", diverged.what()));
+      add(FindingKind::no_candidate, diverged.what());
     }
     if (!recording) return;
     result_.candidate =
@@ -385,7 +357,7 @@ SceneResult unjudged_scene(const Scene& scene, const std::string& name, const Ch
   SceneResult result = unchecked(scene, name, settings);
   result.verdict = SceneVerdict::error;
   result.error = error.kind();
-  result.findings.emplace_back(error.what());
+  result.findings.push_back({FindingKind::error, error.what()});
   return result;
 }
 

@@ -75,17 +75,17 @@ Json to_json(const SceneResult& scene) {
             {"file", scene.file.string()},
             {"golden", scene.golden.string()},
             {"verdict", verdict_name(scene.verdict)},
-            {"findings", scene.findings},
+            {"findings", sentences(scene)},
             {"motion_tolerance", scene.settings.motion_tolerance},
             {"limits",
              {{"channel", scene.settings.limits.channel},
               {"pixels", scene.settings.limits.pixels},
               {"flip", scene.settings.limits.flip}}},
             {"size", scene.size},
-            {"film", scene.film},
-            {"time", scene.time},
+            {"film", sentence(scene, {FindingKind::film})},
+            {"time", sentence(scene, {FindingKind::slow})},
             {"ignored", scene.ignored},
-            {"recorded_elsewhere", scene.elsewhere},
+            {"recorded_elsewhere", name_other_machine(scene.recorded_on, scene.checked_on)},
             {"scene_changed", scene.scene_changed},
             {"recorded_at", scene.recorded_at},
             {"recorded_on", to_json(scene.recorded_on)},
@@ -145,17 +145,12 @@ struct Case {
   [[nodiscard]] bool is_error() const { return scene->verdict == SceneVerdict::error; }
 };
 
-std::string sentences(const SceneResult& scene) {
-  std::string text;
-  for (const std::string& finding : scene.findings) text += finding + "\n";
-  return text;
-}
-
 Case motion_case(const SceneResult& scene, const Comparison& comparison, const char* name) {
   Case test{&scene, name, {}, verdict_name(comparison.motion)};
   if (comparison.motion == MotionVerdict::changed) {
     test.failure = describe_motion(comparison.windows);
-    if (test.failure.empty()) test.failure = scene.findings.empty() ? "changed" : scene.findings.front();
+    if (test.failure.empty())
+      test.failure = scene.findings.empty() ? "changed" : sentence(scene, scene.findings.front());
   }
   return test;
 }
@@ -169,18 +164,18 @@ Case picture_case(const SceneResult& scene, const Comparison& comparison, const 
                                 test.failure.empty() ? "changed: " : "; ", frame.frame, 100 * frame.difference.fraction,
                                 frame.difference.max_flip);
   }
-  if (test.failure.empty()) test.failure = scene.findings.empty() ? "changed" : scene.findings.back();
+  if (test.failure.empty()) test.failure = scene.findings.empty() ? "changed" : sentence(scene, scene.findings.back());
   return test;
 }
 
 std::vector<Case> cases_of(const SceneResult& scene) {
   if (scene.verdict == SceneVerdict::missing) return {{&scene, "golden", "there is no golden to compare with", {}}};
   if (scene.verdict == SceneVerdict::error)
-    return {{&scene, "golden", fmt::format("{}", fmt::join(scene.findings, "; ")), {}}};
+    return {{&scene, "golden", fmt::format("{}", fmt::join(sentences(scene), "; ")), {}}};
   if (scene.verdict == SceneVerdict::updated) return {{&scene, "golden", {}, "updated"}};
   std::vector<Case> cases{motion_case(scene, scene.windows, "motion"), picture_case(scene, scene.windows, "pictures")};
-  if (!scene.film.empty()) cases.push_back({&scene, "film", scene.film, {}});
-  if (!scene.time.empty()) cases.push_back({&scene, "time", scene.time, {}});
+  if (!scene.film.empty()) cases.push_back({&scene, "film", sentence(scene, {FindingKind::film}), {}});
+  if (scene.time) cases.push_back({&scene, "time", sentence(scene, {FindingKind::slow}), {}});
   if (scene.end_to_end) {
     cases.push_back(motion_case(scene, *scene.end_to_end, "motion end to end"));
     cases.push_back(picture_case(scene, *scene.end_to_end, "pictures end to end"));
@@ -199,10 +194,10 @@ void write(tinyxml2::XMLPrinter& xml, const Case& test) {
   if (!test.failure.empty()) {
     xml.OpenElement(test.is_error() ? "error" : "failure");
     xml.PushAttribute("message", printable(test.failure).c_str());
-    const std::string& accept = test.scene->accept_command;
-    xml.PushText(printable(sentences(*test.scene) + "rerun: " + test.scene->rerun_command +
-                           (accept.empty() ? "" : "\naccept: " + accept))
-                     .c_str());
+    std::vector<std::string> lines = sentences(*test.scene);
+    lines.push_back("rerun: " + test.scene->rerun_command);
+    if (const std::string& accept = test.scene->accept_command; !accept.empty()) lines.push_back("accept: " + accept);
+    xml.PushText(printable(fmt::format("{}", fmt::join(lines, "\n"))).c_str());
     xml.CloseElement();
   } else if (!test.output.empty()) {
     xml.OpenElement("system-out");
@@ -268,7 +263,7 @@ std::string github_summary(const CheckReport& report) {
     text += fmt::format("| {} | {} {} | {} | {} | {} |\n", markdown(scene->file.string()), scene->passed() ? "✅" : "❌",
                         verdict_name(scene->verdict), windows.windows.empty() ? "–" : verdict_name(windows.motion),
                         windows.frames.empty() ? "–" : picture_verdict(*scene, windows),
-                        markdown(fmt::format("{}", fmt::join(scene->findings, "; "))));
+                        markdown(fmt::format("{}", fmt::join(sentences(*scene), "; "))));
   }
   if (!report.accept_command.empty())
     text += fmt::format("\nTo accept all of it: {}\n", markdown_code(report.accept_command));
@@ -281,7 +276,7 @@ std::string github_annotations(const CheckReport& report) {
     if (scene.passed()) continue;
     text += fmt::format("::error file={},title={}::{}\n", command_text(scene.file.string(), true),
                         command_text(fmt::format("drape check: {}", verdict_name(scene.verdict)), true),
-                        command_text(fmt::format("{}", fmt::join(scene.findings, "; ")), false));
+                        command_text(fmt::format("{}", fmt::join(sentences(scene), "; ")), false));
   }
   return text;
 }

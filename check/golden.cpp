@@ -392,68 +392,54 @@ std::uintmax_t write_golden(const fs::path& folder, const Golden& golden, const 
 
 namespace {
 
-/// Returns "half the speed", "twice the speed", "0.8 of the speed".
-std::string speed_in_words(double ratio) {
-  if (ratio == 0.5) return "half the speed";
-  if (ratio == 2) return "twice the speed";
-  return ratio > 1 ? fmt::format("{:.3g} times the speed", ratio) : fmt::format("{:.3g} of the speed", ratio);
+std::vector<double> numbers(const Eigen::Vector2i& size) {
+  return {static_cast<double>(size.x()), static_cast<double>(size.y())};
 }
 
 }  // namespace
 
-std::string motion_mismatch(const Scene& scene, const Golden& golden) {
+std::optional<Difference> motion_mismatch(const Scene& scene, const Golden& golden) {
   if (const int count = scene.simulation.cloth.vertex_count(); count != golden.vertex_count) {
-    return fmt::format("the cloth has {} vertices, the golden one {}", count, golden.vertex_count);
+    return Difference{Property::vertices, {1. * golden.vertex_count}, {1. * count}};
   }
-  if (scene.simulation.step != golden.step) {
-    return fmt::format("the step is {} s, in the golden {} s", scene.simulation.step, golden.step);
-  }
+  if (scene.simulation.step != golden.step) return Difference{Property::step, {golden.step}, {scene.simulation.step}};
   if (scene.step_count() != golden.step_count) {
-    return fmt::format("the motion has {} steps, the golden one {}", scene.step_count(), golden.step_count);
+    return Difference{
+        Property::steps, {static_cast<double>(golden.step_count)}, {static_cast<double>(scene.step_count())}};
   }
-  return {};
+  return std::nullopt;
 }
 
-std::string picture_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden,
-                             bool some_frames) {
-  if (scene.simulation.cloth.vertex_count() != golden.vertex_count) {
-    return "the pictures cannot be compared: the cloth has different vertices";
-  }
+std::optional<Difference> picture_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden,
+                                           bool some_frames) {
+  if (scene.simulation.cloth.vertex_count() != golden.vertex_count) return Difference{Property::mesh, {}, {}};
   if (const Eigen::Vector2i size = picture_size(scene, settings); size != golden.size) {
-    return fmt::format("the pictures have {}x{} pixels, the golden ones {}x{}", size.x(), size.y(), golden.size.x(),
-                       golden.size.y());
+    return Difference{Property::size, numbers(golden.size), numbers(size)};
   }
   if (const double seconds = scene.video.speed / scene.video.fps; seconds != golden.seconds_per_frame) {
-    return fmt::format("a frame of the film comes every {:g} s of the scene, in the golden every {:g} s", seconds,
-                       golden.seconds_per_frame);
+    return Difference{Property::frame_time, {golden.seconds_per_frame}, {seconds}};
   }
   std::vector<int> recorded;
   for (const GoldenFrame& frame : golden.frames) recorded.push_back(frame.frame);
   if (!some_frames && !settings.frames.empty() && settings.frames != recorded) {
-    return fmt::format("the scene compares the frames {}, but the golden has {}", fmt::join(settings.frames, ", "),
-                       fmt::join(recorded, ", "));
+    return Difference{
+        Property::frames, {recorded.begin(), recorded.end()}, {settings.frames.begin(), settings.frames.end()}};
   }
-  return {};
+  return std::nullopt;
 }
 
-std::vector<std::string> film_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden) {
-  std::vector<std::string> changes;
+std::vector<Difference> film_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden) {
+  std::vector<Difference> changes;
   if (!golden.film) return changes;
   const GoldenFilm now = film_of(scene), &then = *golden.film;
-  if (now.speed != then.speed) {
-    changes.push_back(fmt::format("the film plays at {} (video.speed is {:g}, in the golden {:g})",
-                                  speed_in_words(now.speed / then.speed), now.speed, then.speed));
-  }
-  if (now.fps != then.fps)
-    changes.push_back(fmt::format("the film has {:g} frames a second, the golden one {:g}", now.fps, then.fps));
+  if (now.speed != then.speed) changes.push_back({Property::speed, {then.speed}, {now.speed}});
+  if (now.fps != then.fps) changes.push_back({Property::rate, {then.fps}, {now.fps}});
   // Pictures of the film's own size are reported as different anyway.
   if (settings.size && now.size != then.size) {
-    changes.push_back(fmt::format("the film has {}x{} pixels, the golden one {}x{}", now.size.x(), now.size.y(),
-                                  then.size.x(), then.size.y()));
+    changes.push_back({Property::film_size, numbers(then.size), numbers(now.size)});
   }
   if (now.samples != then.samples) {
-    changes.push_back(fmt::format("the film has {} sample{} per pixel, the golden one {}", now.samples,
-                                  now.samples == 1 ? "" : "s", then.samples));
+    changes.push_back({Property::samples, {1. * then.samples}, {1. * now.samples}});
   }
   return changes;
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "check/name_difference.hpp"
 #include "check/picture.hpp"
 #include "core/build_info.hpp"
 #include "core/files.hpp"
@@ -270,13 +271,14 @@ double largest_flip(const Comparison& comparison) {
 
 Markup scene_content(const SceneResult& scene, const std::string& id) {
   std::vector<html::Finding> findings;
-  if (!scene.elsewhere.empty()) {
-    findings.push_back({Tone::caution, "The golden was recorded " + scene.elsewhere + "."});
+  if (!name_other_machine(scene.recorded_on, scene.checked_on).empty()) {
+    findings.push_back({Tone::caution, whole_sentence(sentence(scene, {FindingKind::elsewhere}))});
   }
-  for (const std::string& sentence : scene.findings) {
-    if (!scene.elsewhere.empty() && sentence.find(scene.elsewhere) != std::string::npos) continue;
-    const std::string said = scene.verdict == SceneVerdict::error ? sentence : whole_sentence(sentence);
-    findings.push_back({&sentence == &scene.findings.front() ? tone_of(scene.verdict) : Tone::neutral, said});
+  for (const SceneFinding& finding : scene.findings) {
+    if (finding.kind == FindingKind::elsewhere) continue;  // comes first
+    const std::string text = sentence(scene, finding);
+    findings.push_back({&finding == &scene.findings.front() ? tone_of(scene.verdict) : Tone::neutral,
+                        finding.kind == FindingKind::error ? text : whole_sentence(text)});
   }
   if (const std::string ignored = describe_ignored(scene); !ignored.empty()) {
     findings.push_back({Tone::neutral, ignored + "."});

@@ -162,10 +162,13 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WindowResult, first_step, last_step, verdict,
                                    problem)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Comparison, motion, picture, windows, frames, first_bad_frame)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Machine, drape, compiler, system, processor, cpu_flags, kernels, renderer)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Difference, of, golden, now)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SlowSteps, steps, ratio)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneFinding, kind, text, golden, difference)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneResult, name, file, golden, verdict, error, findings, windows, end_to_end,
-                                   settings, film, time, ignored, elsewhere, scene_changed, recorded_at, recorded_on,
-                                   renderer, size, animation, stills, expected, actual, candidate, rerun_command,
-                                   accept_command, seconds)
+                                   settings, film, time, ignored, scene_changed, recorded_at, recorded_on, checked_on,
+                                   size, animation, stills, expected, actual, candidate, rerun_command, accept_command,
+                                   seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckReport, command, run_options, accept_command, date, machine, scenes, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckShard, report, places, scenes, whole)
 
@@ -226,9 +229,10 @@ bool is_sound(const Comparison& comparison) {
 bool is_sound(const SceneResult& scene) {
   constexpr int most_pixels = 1 << 14;
   const auto sound_size = [](int pixels) { return pixels >= 0 && pixels <= most_pixels; };
+  const auto sound_finding = [](const SceneFinding& f) { return is_one_of(f.kind, FindingKind::no_candidate); };
   return is_one_of(scene.verdict, SceneVerdict::error) && is_one_of(scene.error, ErrorKind::output) &&
-         std::ranges::all_of(scene.size, sound_size) && is_sound(scene.windows) &&
-         (!scene.end_to_end || is_sound(*scene.end_to_end));
+         std::ranges::all_of(scene.size, sound_size) && std::ranges::all_of(scene.findings, sound_finding) &&
+         is_sound(scene.windows) && (!scene.end_to_end || is_sound(*scene.end_to_end));
 }
 
 /// Returns true if the positions of a shard's scenes are ascending, valid and complete.

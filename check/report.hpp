@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "check/finding.hpp"
 #include "drape/core/error.hpp"
 #include "drape/scene/scene.hpp"
 #include "reports/players.hpp"
@@ -171,20 +172,19 @@ struct SceneResult {
   std::filesystem::path file;    ///< the scene file
   std::filesystem::path golden;  ///< folder of the golden
   SceneVerdict verdict = SceneVerdict::passed;
-  ErrorKind error = ErrorKind::usage;  ///< category, for the verdict "error"
-  std::vector<std::string> findings;  ///< sentences, most important first: "the motion changed at step 37 by up to …"
-  Comparison windows;                 ///< windows from golden states, and the pictures of those states
+  ErrorKind error = ErrorKind::usage;    ///< category, for the verdict "error"
+  std::vector<SceneFinding> findings;    ///< most important first
+  Comparison windows;                    ///< windows from golden states, and the pictures of those states
   std::optional<Comparison> end_to_end;  ///< the whole motion, run again and drawn; absent if not requested
 
-  CheckSettings settings;      ///< settings with the command line's changes
-  std::string film;            ///< sentences on changed film settings; empty: none changed
-  std::string time;            ///< a sentence if the first steps take too long; empty: in time, or not measured
-  double ignored = 0;          ///< share of each picture that is not judged, 0 to 1
-  std::string elsewhere;       ///< differences of the recording machine, see name_other_machine()
-  bool scene_changed = false;  ///< the scene file differs from the recorded one
-  std::string recorded_at;     ///< "2026-01-31T12:00:00Z"; empty without a golden
+  CheckSettings settings;         ///< settings with the command line's changes
+  std::vector<Difference> film;   ///< changed film settings
+  std::optional<SlowSteps> time;  ///< absent: in time, or not measured
+  double ignored = 0;             ///< share of each picture that is not judged, 0 to 1
+  bool scene_changed = false;     ///< the scene file differs from the recorded one
+  std::string recorded_at;        ///< "2026-01-31T12:00:00Z"; empty without a golden
   Machine recorded_on;
-  std::string renderer;       ///< renderer of the new pictures
+  Machine checked_on;         ///< with the renderer of the new pictures
   std::array<int, 2> size{};  ///< size of the pictures [pixels]
   std::string animation;      ///< GIF bytes: expected, actual and difference side by side, around the first bad frame;
                               ///< empty: none

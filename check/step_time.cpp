@@ -1,6 +1,5 @@
 #include "check/step_time.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -114,17 +113,17 @@ std::optional<GoldenTime> measure_step_time(const Scene& scene, std::int64_t ste
   return time;
 }
 
-std::string time_mismatch(const Scene& scene, const GoldenTime& golden, double limit, const std::stop_token& stop) {
-  if (golden.steps == 0) return {};
+std::optional<SlowSteps> time_mismatch(const Scene& scene, const GoldenTime& golden, double limit,
+                                       const std::stop_token& stop) {
+  if (golden.steps == 0) return std::nullopt;
   double least = INFINITY;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const std::optional<GoldenTime> now = measure_step_time(scene, golden.steps, stop);
-    if (!now) return {};
+    if (!now) return std::nullopt;
     least = std::min(least, now->ratio / golden.ratio);
-    if (least <= limit) return {};
+    if (least <= limit) return std::nullopt;
   }
-  return fmt::format("the first {} steps take {:.2f} times as long as when the golden was recorded; {:g} is allowed",
-                     golden.steps, least, limit);
+  return SlowSteps{golden.steps, least};
 }
 
 }  // namespace drape

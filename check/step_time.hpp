@@ -20,8 +20,9 @@ std::optional<GoldenTime> measure_step_time(const Scene& scene, std::int64_t ste
 /// Compares a scene's time with its golden one. Repeats the measurement several times if the limit is exceeded, so that
 /// a busy machine does not fail a check.
 /// @param limit largest accepted ratio of the two
-/// @returns "the first 40 steps take 1.52 times as long as …"; empty if within the limit or stopped
+/// @returns nothing if within the limit or stopped
 /// @throws DivergedError
-std::string time_mismatch(const Scene& scene, const GoldenTime& golden, double limit, const std::stop_token& stop);
+std::optional<SlowSteps> time_mismatch(const Scene& scene, const GoldenTime& golden, double limit,
+                                       const std::stop_token& stop);
 
 }  // namespace drape

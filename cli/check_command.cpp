@@ -163,7 +163,7 @@ bool check_all(const SceneChecker& judge, const std::vector<std::size_t>& places
   const auto add = [&](SceneResult result) {
     if (result.has_candidate()) report.accept_command = accept_command(judge.folder());
     tell(result, common, verdicts);
-    if (!result.renderer.empty()) report.machine.renderer = result.renderer;
+    if (!result.checked_on.renderer.empty()) report.machine.renderer = result.checked_on.renderer;
     report.scenes.push_back(std::move(result));
   };
   if (jobs == 1) {

@@ -274,7 +274,7 @@ namespace {
 std::string describe(const SceneResult& scene) {
   const std::string file = shown(scene.file);
   if (scene.verdict != SceneVerdict::passed) {
-    return fmt::format("{}: {}: {}", file, verdict_name(scene.verdict), fmt::join(scene.findings, "; "));
+    return fmt::format("{}: {}: {}", file, verdict_name(scene.verdict), fmt::join(sentences(scene), "; "));
   }
   std::string text =
       fmt::format("{}: passed: motion {}, {} {}", file, verdict_name(scene.windows.motion), scene.windows.frames.size(),
@@ -350,7 +350,7 @@ void tell(const SceneResult& result, const CommonOptions& common, ResultPrinter&
     spdlog::debug("frame {}: {}, {} pixels differ, FLIP error up to {:.3f}", frame.frame,
                   verdict_name(frame.difference.verdict), frame.difference.pixels, frame.difference.max_flip);
   }
-  if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
+  if (const std::string& by = result.checked_on.renderer; !by.empty()) spdlog::debug("drawn by {}", by);
 }
 
 ExitCode conclude_check(const CheckShard& shard, const std::filesystem::path& folder, FigureStyle style,

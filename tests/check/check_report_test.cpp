@@ -57,14 +57,15 @@ TEST_F(CheckReports, ReportAFilmAtAnotherSpeedAsAFailure) {
   report.scenes.push_back(check({"video.speed=0.5", "video.fps=15"}));
   EXPECT_EQ(exit_code(report), ExitCode::differs);
   const auto scene = nlohmann::json::parse(json_report(report)).at("scenes")[0];
-  EXPECT_EQ(scene.at("film"), report.scenes[0].film);
+  const std::string change = sentences(report.scenes[0]).at(0);
+  EXPECT_EQ(scene.at("film"), change);
   tinyxml2::XMLDocument xml;
   ASSERT_EQ(xml.Parse(junit_report(report).c_str()), tinyxml2::XML_SUCCESS);
   const auto* suite = xml.RootElement()->FirstChildElement("testsuite");
   EXPECT_EQ(suite->IntAttribute("failures"), 1);
   const auto* film = suite->LastChildElement("testcase");
   EXPECT_STREQ(film->Attribute("name"), "film");
-  EXPECT_EQ(film->FirstChildElement("failure")->Attribute("message"), report.scenes[0].film);
+  EXPECT_EQ(film->FirstChildElement("failure")->Attribute("message"), change);
 }
 
 TEST_F(CheckReports, ReportsWhatCannotBeJudged) {

@@ -43,10 +43,10 @@ TEST_F(ChosenMethod, IsSaidToDifferFromThatOfTheGoldenWhichIsTaken) {
   EXPECT_EQ(result.windows.motion, MotionVerdict::same_bits);
   EXPECT_EQ(result.verdict, SceneVerdict::passed);
   ASSERT_FALSE(result.findings.empty());
-  EXPECT_EQ(result.findings[0].find("the golden was recorded with quasi-newton, and is compared with that; today the "
-                                    "scene has verlet in "),
+  EXPECT_EQ(sentences(result)[0].find("the golden was recorded with quasi-newton, and is compared with that; today the "
+                                      "scene has verlet in "),
             0u)
-      << result.findings[0];
+      << sentences(result)[0];
 }
 
 }  // namespace

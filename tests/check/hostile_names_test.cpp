@@ -26,10 +26,10 @@ CheckReport report_of(const std::string& name) {
     scene.file = name + ".toml";
     scene.golden = name + ".golden";
     scene.verdict = passed ? SceneVerdict::passed : SceneVerdict::changed;
-    scene.findings = {name, "found " + name};
-    scene.elsewhere = "on " + name;
-    scene.recorded_at = scene.renderer = name;
+    scene.findings = {{FindingKind::error, name}, {FindingKind::method, "today's " + name, name}};
+    scene.recorded_at = name;
     scene.recorded_on = {name, name, name, name, name, name, name};
+    scene.checked_on.renderer = "another " + name;
     scene.rerun_command = scene.accept_command = "drape check '" + name + "'";
     scene.size = {64, 48};
     scene.windows.motion = passed ? MotionVerdict::same_bits : MotionVerdict::changed;

@@ -70,6 +70,24 @@ TEST_F(CheckPage, ShowsFailedScenesFirst) {
   keep_screenshots("check-failed");
 }
 
+// A page begins with the golden's origin and omits that finding from the list, but not an error that quotes it.
+TEST(CheckPageFindings, AreOmittedByKindAlone) {
+  SceneResult scene = test::sample_check(true).scenes.back();
+  ASSERT_EQ(scene.findings.back().kind, FindingKind::elsewhere);
+  const std::string origin = sentence(scene, scene.findings.back()).substr(1);
+  const auto times_shown = [&] {
+    const std::string page = scene_content(scene, "scene").html();
+    int times = 0;
+    for (std::size_t at = page.find(origin); at != std::string::npos; at = page.find(origin, at + 1)) ++times;
+    return times;
+  };
+  EXPECT_EQ(times_shown(), 1);
+  scene.findings.push_back({FindingKind::no_candidate, "a text with t" + origin + " in it"});
+  EXPECT_EQ(times_shown(), 2);
+  scene.findings.clear();
+  EXPECT_EQ(times_shown(), 1);
+}
+
 TEST_F(CheckPage, SliderMovesByMouseAndByKey) {
   open(html_report(test::sample_check(true)));
   browser_->click(".comparison .views input[value=slider]");

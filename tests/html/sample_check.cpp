@@ -112,7 +112,7 @@ SceneResult scene(const std::string& name, SceneVerdict verdict, const std::vect
   s.settings.ignore = {{10, 10, 60, 30}};
   s.ignored = 60 * 30 / (320. * 240);
   if (verdict == SceneVerdict::missing) {
-    s.findings = {"there was no golden; it is written now, look at it and run the check again"};
+    s.findings = {{FindingKind::first_golden}};
     return s;
   }
   Camera camera(name);
@@ -156,9 +156,11 @@ CheckReport sample_check(bool failing) {
                                   : scene("5", SceneVerdict::passed, {0, 0, 1, 0}, 0));
   if (failing) {
     report.accept_command = "drape accept out/check";
-    report.scenes.back().elsewhere = "with a different renderer (llvmpipe; here llvmpipe (LLVM 15.0.6, 256 bits))";
-    report.scenes.back().findings = {"the motion changed at step 92 by up to 366 µm at vertex 213",
-                                     "the picture changed at frame 40: 36 pixels differ, by at most 180 of 255"};
+    SceneResult& changed = report.scenes.back();
+    changed.checked_on = changed.recorded_on;
+    changed.checked_on.renderer = "llvmpipe (LLVM 15.0.6, 256 bits)";
+    changed.film = {{Property::speed, {1}, {0.5}}};
+    changed.findings = {{FindingKind::motion}, {FindingKind::pictures}, {FindingKind::film}, {FindingKind::elsewhere}};
   }
   return report;
 }
