@@ -216,7 +216,8 @@ bool is_one_of(Enumeration value, Enumeration last) {
 
 bool is_sound(const Comparison& comparison) {
   const auto sound_window = [](const WindowResult& window) {
-    return is_one_of(window.verdict, MotionVerdict::changed);
+    const bool explained = window.verdict != MotionVerdict::changed || !window.problem.empty();
+    return is_one_of(window.verdict, MotionVerdict::changed) && (window.other_bits || (explained && !window.first));
   };
   const auto sound_frame = [](const FrameResult& frame) {
     return frame.frame >= 0 && is_one_of(frame.difference.verdict, PictureVerdict::changed);

@@ -192,6 +192,8 @@ TEST_F(StrangersCheck, HasPlacesThatThereAre) {
   });
   refused([](json& s) { s["report"]["scenes"][0]["verdict"] = 99; });
   refused([](json& s) { s["report"]["scenes"][0]["windows"]["motion"] = -1; });
+  refused([](json& s) { s["report"]["scenes"][0]["findings"][0]["kind"] = 99; });
+  refused([](json& s) { s["report"]["scenes"][0]["windows"]["windows"][0]["other_bits"] = nullptr; });
   folder_.write(mark_, seal_shard(std::string(1'000'000, '\x81') + "\xf6"));  // deeply nested lists
   expect_refused("merge in -o out", "check.cbor: it is damaged");
   const std::vector<std::uint8_t> cbor = json::to_cbor(shard_);
