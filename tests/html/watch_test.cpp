@@ -9,6 +9,7 @@
 #include <stop_token>
 #include <thread>
 
+#include "core/files.hpp"
 #include "tests/html/html_page.hpp"
 
 // A page that shows a scene while it is edited: a colour changes, a mistake is made and corrected.
@@ -34,9 +35,7 @@ struct Watched {
 class WatchPage : public test::InBrowser {
  protected:
   /// Saves a file in one step, so that a session never sees it half-written, which it would draw as a scene of its own.
-  void save(const std::string& name, const std::string& text) {
-    std::filesystem::rename(put(path(name + ".new"), text), path(name));
-  }
+  void save(const std::string& name, const std::string& text) const { write_file_atomically(path(name), text); }
 
   /// Returns the colour in the middle of the film's picture: red, green, blue.
   std::vector<int> middle() {
