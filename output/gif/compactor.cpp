@@ -106,21 +106,29 @@ const Image& FrameSpool::next() {
 
 namespace {
 
-constexpr int symbol_bits = 8, least_width = symbol_bits + 1, most_width = 12;
+constexpr int symbol_bits = LzwDictionary::symbol_bits, least_width = symbol_bits + 1,
+              most_width = LzwDictionary::code_bits;
 constexpr std::size_t most_of_block = 255;
 
 }  // namespace
 
 void LzwDictionary::clear() {
   size_ = end_code + 1;
-  first_child_.fill(none);
+  entries_.fill({});
+  children_.fill(0);
 }
 
 void LzwDictionary::extend(int entry, int symbol) {
-  symbol_[size_] = static_cast<std::uint8_t>(symbol);
-  parent_[size_] = static_cast<std::int16_t>(entry);
-  next_sibling_[size_] = first_child_[entry];
-  first_child_[entry] = static_cast<std::int16_t>(size_);
+  entries_[size_] = {.next_sibling = entries_[entry].first_child,
+                     .parent = static_cast<std::int16_t>(entry),
+                     .symbol = static_cast<std::uint8_t>(symbol)};
+  entries_[entry].first_child = static_cast<std::int16_t>(size_);
+  if (symbol == 0) entries_[entry].zero_child = static_cast<std::int16_t>(size_);
+  entries_[entry].symbols |= static_cast<std::uint8_t>(1 << symbol % 8);
+  const auto key = static_cast<std::uint32_t>(entry << symbol_bits | symbol);
+  std::uint32_t k = slot(key);
+  while (children_[k] != 0) k = (k + 1) % slots;
+  children_[k] = key << code_bits | static_cast<std::uint32_t>(size_);
   ++size_;
 }
 
@@ -244,15 +252,40 @@ int Compactor::error(const Pixel& pixel, int symbol) const {
   return color_error(palette_.colors[index], pixel.source);
 }
 
-/// Extends a match of the first pixels as far as the dictionary has entries for the next ones.
-void Compactor::find_longest(std::span<const Pixel> pixels, const Match& match, Match& best) const {
-  if (match.length > best.length || (match.length == best.length && match.error < best.error)) best = match;
-  if (static_cast<std::size_t>(match.length) == pixels.size()) return;
-  const Pixel& pixel = pixels[static_cast<std::size_t>(match.length)];
-  for (int e = dictionary_.first_child(match.entry); e >= 0; e = dictionary_.next_sibling(e)) {
-    const int added = error(pixel, dictionary_.symbol(e));
-    if (added <= pixel.most_error) find_longest(pixels, {e, match.length + 1, match.error + added}, best);
+/// Returns the entries that extend one by a pixel's own colour, the newest first: there may be one with the colour's
+/// index, and one that keeps the colour shown.
+std::array<int, 2> Compactor::exact_children(const Pixel& pixel, int entry) const {
+  const int own = pixel.symbol == Palette::transparent ? pixel.shown : pixel.symbol;
+  const int drawn = dictionary_.child(entry, own);
+  const int kept = pixel.shown == own ? dictionary_.child(entry, Palette::transparent) : LzwDictionary::none;
+  return {std::max(drawn, kept), std::min(drawn, kept)};
+}
+
+/// Extends a match of the first pixels as far as the dictionary has entries for the next ones. Of several ways, the
+/// last is followed here and the others by recursion: mostly there is one.
+void Compactor::find_longest(std::span<const Pixel> pixels, Match match, Match& best) const {
+  while (static_cast<std::size_t>(match.length) < pixels.size()) {
+    const Pixel& pixel = pixels[static_cast<std::size_t>(match.length)];
+    Match longer{LzwDictionary::none, match.length + 1, 0};
+    const auto follow = [&](int entry, int added) {
+      if (longer.entry >= 0) find_longest(pixels, longer, best);
+      longer.entry = entry;
+      longer.error = match.error + added;
+    };
+    if (pixel.most_error == 0) {
+      for (const int e : exact_children(pixel, match.entry)) {
+        if (e >= 0) follow(e, 0);
+      }
+    } else {
+      for (int e = dictionary_.first_child(match.entry); e >= 0; e = dictionary_.next_sibling(e)) {
+        const int added = error(pixel, dictionary_.symbol(e));
+        if (added <= pixel.most_error) follow(e, added);
+      }
+    }
+    if (longer.entry < 0) break;
+    match = longer;
   }
+  if (match.length > best.length || (match.length == best.length && match.error < best.error)) best = match;
 }
 
 std::string Compactor::compress() {

@@ -62,6 +62,7 @@ class LzwDictionary {
  public:
   static constexpr int clear_code = 256, end_code = 257;
   static constexpr int none = -1;
+  static constexpr int symbol_bits = 8, code_bits = 12;
 
   LzwDictionary() { clear(); }
 
@@ -72,15 +73,36 @@ class LzwDictionary {
   void extend(int entry, int symbol);
 
   [[nodiscard]] int size() const { return size_; }
-  [[nodiscard]] int first_child(int entry) const { return first_child_[entry]; }
-  [[nodiscard]] int next_sibling(int entry) const { return next_sibling_[entry]; }
-  [[nodiscard]] int parent(int entry) const { return parent_[entry]; }
-  [[nodiscard]] int symbol(int entry) const { return symbol_[entry]; }
+  [[nodiscard]] int first_child(int entry) const { return entries_[entry].first_child; }
+  [[nodiscard]] int next_sibling(int entry) const { return entries_[entry].next_sibling; }
+  /// Returns the child that extends an entry by a symbol; `none` if there is none.
+  [[nodiscard]] int child(int entry, int symbol) const {
+    if (symbol == 0) return entries_[entry].zero_child;
+    if ((entries_[entry].symbols >> symbol % 8 & 1) == 0) return none;
+    const auto key = static_cast<std::uint32_t>(entry << symbol_bits | symbol);
+    for (std::uint32_t k = slot(key);; k = (k + 1) % slots) {
+      if (children_[k] == 0) return none;
+      if (children_[k] >> code_bits == key) return static_cast<int>(children_[k] & ((1U << code_bits) - 1));
+    }
+  }
+  [[nodiscard]] int parent(int entry) const { return entries_[entry].parent; }
+  [[nodiscard]] int symbol(int entry) const { return entries_[entry].symbol; }
 
  private:
   static constexpr int capacity = 4095;  // one less than the number of codes: some decoders count ahead
-  std::array<std::int16_t, capacity> first_child_, next_sibling_, parent_;
-  std::array<std::uint8_t, capacity> symbol_;
+  struct Entry {
+    std::int16_t first_child = none, next_sibling = none, parent = none;
+    std::int16_t zero_child = none;  // the child of symbol 0: most pixels of a film are transparent
+    std::uint8_t symbol = 0;
+    std::uint8_t symbols = 0;  // bit k: some child's symbol has the remainder k by 8
+  };
+
+  static constexpr std::uint32_t slots = 8192;  // of the hash table: twice the capacity
+  /// Returns the first slot for a child.
+  static std::uint32_t slot(std::uint32_t key) { return key * 2654435769U >> 19; }
+
+  std::array<Entry, capacity> entries_;
+  std::array<std::uint32_t, slots> children_;  // 12 bits of the parent, 8 of the symbol, 12 of the child; 0: free
   int size_ = 0;
 };
 
@@ -155,7 +177,8 @@ class Compactor {
   [[nodiscard]] int most_error(const IndexedFrame& frame, std::size_t i, int tolerance) const;
   std::string compress();
   [[nodiscard]] int error(const Pixel& pixel, int symbol) const;
-  void find_longest(std::span<const Pixel> pixels, const Match& match, Match& best) const;
+  [[nodiscard]] std::array<int, 2> exact_children(const Pixel& pixel, int entry) const;
+  void find_longest(std::span<const Pixel> pixels, Match match, Match& best) const;
 
   Palette palette_;
   int height_;

@@ -3,24 +3,38 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <span>
+#include <utility>
 
 namespace drape::gif {
 
-void ColorHistogram::add(const Image& image) {
-  // Counts by runs: much of a picture is uniform background.
-  const std::uint8_t* pixel = image.pixels.data();
-  const std::uint8_t* end = pixel + image.pixels.size();
-  while (pixel != end) {
-    const std::uint32_t color = rgb_number(pixel);
-    const std::uint8_t* begin = pixel;
-    do pixel += 3;
-    while (pixel != end && rgb_number(pixel) == color);
-    counts_[color] += static_cast<std::uint64_t>(pixel - begin) / 3;
-  }
+/// Counts the stretch that begins at a byte of the last frame.
+void ColorHistogram::count(std::size_t first_byte) {
+  const std::uint64_t shown = frames_ - std::exchange(since_[first_byte / stretch], frames_);
+  const std::size_t end = std::min(first_byte + stretch, last_.pixels.size());
+  for (std::size_t i = first_byte; i < end; i += 3) counts_[rgb_number(&last_.pixels[i])] += shown;
 }
 
-std::vector<ColorCount> ColorHistogram::colors() const {
+void ColorHistogram::add(const Image& image) {
+  const std::size_t size = image.pixels.size();
+  if (frames_ == 0) {
+    last_ = image;
+    since_.assign((size + stretch - 1) / stretch, 0);
+  }
+  for (std::size_t first = 0; first < size; first += stretch) {
+    const std::size_t length = std::min(stretch, size - first);
+    std::uint8_t* before = &last_.pixels[first];
+    const std::uint8_t* now = &image.pixels[first];
+    if (std::memcmp(before, now, length) == 0) continue;
+    count(first);
+    std::memcpy(before, now, length);
+  }
+  ++frames_;
+}
+
+std::vector<ColorCount> ColorHistogram::colors() {
+  for (std::size_t first = 0; first < last_.pixels.size(); first += stretch) count(first);
   std::vector<ColorCount> found;
   counts_.for_each([&found](std::uint32_t color, std::uint64_t count) {
     if (count > 0) found.push_back({color, count});
@@ -169,7 +183,7 @@ std::vector<std::uint32_t> representative_colors(std::vector<ColorCount> colors,
   return chosen;
 }
 
-Palette make_palette(const ColorHistogram& histogram) {
+Palette make_palette(ColorHistogram& histogram) {
   std::vector<ColorCount> colors = histogram.colors();
   std::uint64_t total = 0;
   for (const ColorCount& c : colors) total += c.count;

@@ -57,16 +57,25 @@ struct ColorCount {
   std::uint64_t count = 0;
 };
 
-/// Counts every colour of a film separately.
+/// Counts every colour of a film separately. Stretches of pixels that stay the same are counted once, for all the
+/// frames that showed them.
 class ColorHistogram {
  public:
+  /// @param image the film's next frame, of the same size as the others
   void add(const Image& image);
 
   /// Returns each colour once, in an order that depends only on the set of colours.
-  [[nodiscard]] std::vector<ColorCount> colors() const;
+  [[nodiscard]] std::vector<ColorCount> colors();
 
  private:
+  static constexpr std::size_t stretch = 96;  // [bytes]
+
+  void count(std::size_t first_byte);
+
   ColorTable<std::uint64_t> counts_;
+  Image last_;
+  std::vector<std::uint64_t> since_;  // per stretch of the last frame: the first frame that is not counted
+  std::uint64_t frames_ = 0;
 };
 
 /// Chooses at most `most` colours that represent the given ones; few given colours are returned unchanged.
@@ -84,6 +93,6 @@ struct Palette {
 };
 
 /// Chooses the colours of a GIF for a film.
-Palette make_palette(const ColorHistogram& histogram);
+Palette make_palette(ColorHistogram& histogram);
 
 }  // namespace drape::gif
