@@ -13,7 +13,11 @@ namespace drape {
 namespace {
 
 /// Returns the first texel whose middle is at or after x; texel k has its middle at k + ½.
-int first_texel(double x) { return static_cast<int>(std::ceil(x - 0.5)); }
+int first_texel(double x) {
+  // std::ceil() is a call where the processor may lack SSE4.1.
+  const auto below = static_cast<int>(x - 0.5);
+  return below < x - 0.5 ? below + 1 : below;
+}
 
 /// An edge from p up to q. Both of its triangles compute bitwise equal crossings.
 class RisingEdge {
@@ -224,7 +228,8 @@ ClothShadow::Light ClothShadow::past_cloth(const Triangle& triangle) const {
                       .top = std::min(static_cast<int>(high[1]) + filtered, map_.rows() - 1)};
   if (!has_layers(texels)) return Light::whole;
   const Eigen::Vector3d normal = (b - a).cross(c - a);
-  const double slope = -normal[0] / normal[2], rise = -normal[1] / normal[2], steep = std::hypot(slope, rise);
+  const double slope = -normal[0] / normal[2], rise = -normal[1] / normal[2],
+               steep = std::sqrt(slope * slope + rise * rise);
   if (!(steep < 1e3 * map_.texel())) return Light::past_cloth;
   const auto tolerated = static_cast<float>(0.5 * lift * map_.texel()), step = static_cast<float>(slope);
   const auto deep = static_cast<float>(2 * (lift + softness) * (map_.texel() + steep));

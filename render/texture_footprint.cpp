@@ -19,7 +19,7 @@ int most_footprint_samples(int anisotropy) {
 
 int footprint_samples(const Eigen::Matrix2d& change, int anisotropy) {
   const double a = change.col(0).squaredNorm(), b = change.col(0).dot(change.col(1)), c = change.col(1).squaredNorm();
-  const double middle = (a + c) / 2, apart = std::hypot((a - c) / 2, b);
+  const double middle = (a + c) / 2, apart = std::sqrt((a - c) * (a - c) / 4 + b * b);
   const double longest = std::sqrt(middle + apart), shortest = std::sqrt(std::max(middle - apart, 0.0));
   const double width = std::max({tolerated_stretch * shortest, tolerated_stretch * longest / anisotropy, 1.0});
   const double needed = longest / width;
