@@ -124,12 +124,18 @@ void Canvas::read() {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ ? resolved_->framebuffer.id() : samples_.framebuffer.id());
   gl_.ReadPixels(box_.corner.x(), box_.corner.y(), box_.size.x(), box_.size.y(), GL_RGBA, GL_UNSIGNED_SHORT,
                  rgba_.data());
+  if (!resolved_) {
+    depth_.resize(static_cast<std::size_t>(box_.size.x()) * static_cast<std::size_t>(box_.size.y()));
+    gl_.ReadPixels(box_.corner.x(), box_.corner.y(), box_.size.x(), box_.size.y(), GL_DEPTH_COMPONENT, GL_FLOAT,
+                   depth_.data());
+  }
   if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
     throw OutputError(fmt::format("cannot draw: OpenGL reports error {:#x}", error));
   }
 }
 
-Image Canvas::compose() const {
+Image Canvas::compose(std::span<const OutlineSegment> outline) {
+  if (!resolved_) smooth_outlines(outline, read_box_, depth_, rgba_);
   Image image = empty_;
   const std::uint8_t* encode = encoding().data();
   const std::uint16_t* from = rgba_.data();

@@ -4,19 +4,21 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "drape/render/image.hpp"
 #include "drape/render/settings.hpp"
 #include "render/gl/program.hpp"
+#include "render/outline.hpp"
 #include "render/shot.hpp"
 
 namespace drape {
 
 /// Drawing target: 16 bits of linear light per channel, premultiplied with coverage. The samples of a pixel are
-/// averaged in linear light, then composed over the background and encoded as sRGB. The last two steps run here, not in
-/// OpenGL: Mesa's sRGB framebuffers differ between processors, while a table is exact and faster than a shader on a
-/// processor.
+/// averaged in linear light; one sample per pixel is smoothed along outlines. The picture is then composed over the
+/// background and encoded as sRGB. The last two steps run here, not in OpenGL: Mesa's sRGB framebuffers differ between
+/// processors, while a table is exact and faster than a shader on a processor.
 ///
 /// A picture takes four calls: begin(), finish(), read(), compose(). Mesa's threads draw between finish() and read(),
 /// and may draw the next picture before compose().
@@ -37,8 +39,10 @@ class Canvas {
   /// @throws OutputError if OpenGL reports an error
   void read();
 
-  /// Returns the picture that was read, over the background. Untouched pixels have the background's exact bytes.
-  [[nodiscard]] Image compose() const;
+  /// Returns the picture that was read, over the background. Untouched pixels have the background's exact bytes. To be
+  /// called once after read().
+  /// @param outline outlines to smooth, with one sample per pixel
+  [[nodiscard]] Image compose(std::span<const OutlineSegment> outline);
 
  private:
   /// A colour buffer and, with `depth`, a depth buffer of the same size and number of samples.
@@ -62,6 +66,7 @@ class Canvas {
   Target samples_;
   std::optional<Target> resolved_;   // absent with one sample per pixel
   std::vector<std::uint16_t> rgba_;  // pixels read, rows from below
+  std::vector<float> depth_;         // likewise, with one sample per pixel
 };
 
 }  // namespace drape

@@ -57,6 +57,13 @@ std::array<bool, 2> repeats(std::span<const Triangle> triangles, std::span<const
   return repeating;
 }
 
+/// Returns the hem's triangles and those that join it to the cloth.
+std::vector<Triangle> joined(const Hem& hem) {
+  std::vector<Triangle> all = hem.triangles();
+  all.insert(all.end(), hem.joints().begin(), hem.joints().end());
+  return all;
+}
+
 }  // namespace
 
 DrawCloth::DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, const std::vector<Triangle>& triangles,
@@ -67,6 +74,8 @@ DrawCloth::DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, c
       triangles_(triangles),
       surface_(triangles, SmoothSurface::levels_for(triangles.size(), static_cast<double>(size.x()) * size.y())),
       hem_(surface_, look.mesh_lines ? 0 : look.thickness),
+      outline_(surface_.triangles()),
+      hem_outline_(joined(hem_)),
       occluders_(triangles_),
       array_(gl_),
       static_buffer_(gl_),
@@ -332,7 +341,9 @@ void DrawCloth::sort_triangles(const Shot& shot, const ClothShadow* shadow) {
     const std::size_t more = samples == nullptr ? 0 : static_cast<std::size_t>(std::min((*samples)[t], 3) - 1);
     group_of.push_back(kinds * painted_at(surface_.pieces()[t].parent) + kinds_of_light * more + light);
   }
-  for (const int piece : hem_.pieces()) group_of.push_back(group_of[static_cast<std::size_t>(piece)]);
+  if (hemmed_) {
+    for (const int piece : hem_.pieces()) group_of.push_back(group_of[static_cast<std::size_t>(piece)]);
+  }
   for (std::size_t t = 0; t < group_of.size(); ++t) {
     std::vector<unsigned>& group = groups[group_of[t]];
     for (std::size_t c = 0; c < 3; ++c) group.push_back(indices_[3 * t + c]);
@@ -348,8 +359,15 @@ void DrawCloth::prepare(const Shot& shot, const ClothShadow* shadow, std::span<c
   if (occlusion_) find_occlusion(shot);
   find_colors(colors);
   choose_programs(shot.spheres.size(), !colors.empty(), colors.empty() && weave_ && weave_->visible(shot, size_.y()));
-  painted_.front().counts = {indices_.size() / 3};
+  hemmed_ = !hem_.triangles().empty() && resolves(shot, look_.thickness, Hem::least_pixels, size_.y());
+  painted_.front().counts = {hemmed_ ? indices_.size() / 3 : surface_.triangles().size()};
   if (shadow != nullptr || painted_.size() > 1 || footprints_) sort_triangles(shot, shadow);
+}
+
+void DrawCloth::append_outline(const Projection& project, std::vector<OutlineSegment>& outline) const {
+  const std::vector<Eigen::Vector3d> points = project.points(positions_);
+  outline_.append(points, !hemmed_, outline);  // the hem covers the border
+  if (hemmed_) hem_outline_.append(points, false, outline);
 }
 
 void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow) {
@@ -406,16 +424,7 @@ Weave::Weave(const Vertices& rest, const std::vector<Triangle>& triangles,
 bool Weave::visible(const Shot& shot, int height) const {
   if (yarns_.isZero()) return false;
   constexpr double slack = 0.8;  // for cloth between the vertices, and for stretched yarns
-  // The projection's rows scale a unit vector: the second to half the picture's height at a depth of 1.
-  const Eigen::Matrix4d projection = shot.view_projection.cast<double>();
-  const double pixels = projection.block<1, 3>(1, 0).norm() * height / 2;  // per metre at a depth of 1 m
-  const double farthest = pixels * widest_ / (slack * least_pixels);
-  const Eigen::RowVector3d back = projection.block<1, 3>(3, 0);
-  for (const auto x : shot.frame.positions.rowwise()) {
-    const double depth = back.dot(x) + projection(3, 3);
-    if (depth > 0 && depth < farthest) return true;
-  }
-  return false;
+  return resolves(shot, widest_ / slack, least_pixels, height);
 }
 
 void Weave::set_uniform(const Program& program) const {

@@ -11,6 +11,7 @@
 #include "render/ambient_occlusion.hpp"
 #include "render/gl/device.hpp"
 #include "render/gl/program.hpp"
+#include "render/outline.hpp"
 #include "render/shadows.hpp"
 #include "render/shot.hpp"
 #include "render/smooth_surface.hpp"
@@ -71,6 +72,9 @@ class DrawCloth {
   /// Draws what was prepared, with the same arguments.
   void draw(const Shot& shot, const ClothShadow* shadow);
 
+  /// Appends the outline of what prepare() prepared.
+  void append_outline(const Projection& project, std::vector<OutlineSegment>& outline) const;
+
  private:
   static constexpr std::size_t kinds_of_light = 4;
   static constexpr std::size_t kinds_of_samples = 3;  // of the texture: one, two or most_footprint_samples()
@@ -127,6 +131,8 @@ class DrawCloth {
   std::vector<Triangle> triangles_;
   SmoothSurface surface_;
   Hem hem_;
+  bool hemmed_ = false;  // true if the frame shows the hem
+  MeshOutline outline_, hem_outline_;
   Vertices positions_, normals_;
   Occluders occluders_;          // of ambient light
   std::vector<Source> sources_;  // per GL vertex

@@ -80,7 +80,7 @@ DrawBody::DrawBody(GlDevice& device, const Look& look, std::size_t sphere_count,
       color_(linear_color(look.body_color)) {}
 
 std::unique_ptr<DrawBody::Drawn> DrawBody::make(const MeshShape& body) const {
-  auto drawn = std::make_unique<Drawn>(gl_, CreasedMesh(*body.triangles, body.positions));
+  auto drawn = std::make_unique<Drawn>(gl_, body);
   gl_.BindVertexArray(drawn->array.id());
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, drawn->indices.id());
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(drawn->mesh.triangles.size() * sizeof(Triangle)),
@@ -124,6 +124,20 @@ void DrawBody::draw(const Shot& shot, const ClothShadow* shadow) {
     program_.set("depth_behind", static_cast<float>(body.thickness));
     gl_.BindVertexArray(drawn.array.id());
     gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * drawn.mesh.triangles.size()), GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+// The depths are those of body.vert.
+void DrawBody::append_outline(const Shot& shot, const Projection& project, std::vector<OutlineSegment>& outline) const {
+  const Eigen::Vector3d eye = shot.eye.cast<double>();
+  for (std::size_t k = 0; k < shot.bodies.size(); ++k) {
+    const MeshShape& body = *shot.bodies[k];
+    std::vector<Eigen::Vector3d> points = project.points(body.positions);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector3d p = body.positions.row(static_cast<Eigen::Index>(i)).transpose();
+      points[i].z() = project.point(p + body.thickness * (p - eye).normalized()).z();
+    }
+    drawn_[k]->outline.append(points, true, outline);
   }
 }
 
@@ -207,6 +221,29 @@ void DrawSphere::draw(const Shot& shot, const ClothShadow* shadow) {
       continue;  // the camera is inside the sphere and cannot see its outside
     program_.set("sphere", std::span(&sphere, 1));
     gl_.DrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+// As sphere.vert draws the rim, where the smaller sphere's depth is that of the ray's nearest point.
+void DrawSphere::append_outline(const Shot& shot, const Projection& project, std::vector<OutlineSegment>& outline) {
+  const Eigen::Vector3d eye = shot.eye.cast<double>();
+  for (const Eigen::Vector4f& sphere : shot.spheres) {
+    const Eigen::Vector3d center = sphere.head<3>().cast<double>();
+    const double radius = double{sphere[3]}, distance = (eye - center).norm();
+    if (!(distance > radius)) continue;
+    const Eigen::Vector3d axis = (eye - center) / distance;
+    const Eigen::Vector3d side =
+        (std::abs(axis.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX()).cross(axis).normalized();
+    const double cosine = radius / distance, sine = std::sqrt(1 - cosine * cosine);
+    std::vector<Eigen::Vector3d> rim;
+    for (unsigned k = 0; k < ring_segments.back(); ++k) {
+      const double angle = 2 * std::numbers::pi * k / ring_segments.back();
+      const Eigen::Vector3d out = std::cos(angle) * side + std::sin(angle) * axis.cross(side);
+      const Eigen::Vector3d p = center + radius * (cosine * axis + sine * out), ray = (p - eye).normalized();
+      rim.push_back(project.point(p));
+      rim.back().z() = project.point(eye - distance * ray.dot(axis) * ray).z();
+    }
+    for (std::size_t k = 0; k < rim.size(); ++k) outline.push_back({rim[k], rim[(k + 1) % rim.size()]});
   }
 }
 

@@ -9,6 +9,7 @@
 #include "drape/render/settings.hpp"
 #include "render/gl/device.hpp"
 #include "render/gl/program.hpp"
+#include "render/outline.hpp"
 #include "render/shadows.hpp"
 #include "render/shot.hpp"
 
@@ -34,12 +35,21 @@ class DrawBody {
   /// @param shadow shadow map of the frame, if the look has shadows
   void draw(const Shot& shot, const ClothShadow* shadow);
 
+  /// Appends the outlines of the bodies that were drawn.
+  void append_outline(const Shot& shot, const Projection& project, std::vector<OutlineSegment>& outline) const;
+
  private:
   struct Drawn {
     CreasedMesh mesh;
+    MeshOutline outline;
     VertexArray array;
     Buffer vertices, indices;
-    Drawn(const GlFunctions& gl, CreasedMesh m) : mesh(std::move(m)), array(gl), vertices(gl), indices(gl) {}
+    Drawn(const GlFunctions& gl, const MeshShape& body)
+        : mesh(*body.triangles, body.positions),
+          outline(*body.triangles, mesh.triangles),
+          array(gl),
+          vertices(gl),
+          indices(gl) {}
   };
   std::unique_ptr<Drawn> make(const MeshShape& body) const;
   void upload(const Drawn& drawn, const MeshShape& body);
@@ -51,8 +61,7 @@ class DrawBody {
   std::vector<float> floats_;                  // position and normal of each drawn vertex
 };
 
-/// Draws the spheres: smooth and glossy. It draws only the visible cap of each, whose rim is the exact outline, so that
-/// multisampling gives clean edges.
+/// Draws the spheres: smooth and glossy. It draws only the visible cap of each, whose rim is the exact outline.
 class DrawSphere {
  public:
   /// @param sphere_count number of spheres in every frame
@@ -61,6 +70,9 @@ class DrawSphere {
 
   /// @param shadow shadow map of the cloth, if the look has shadows
   void draw(const Shot& shot, const ClothShadow* shadow);
+
+  /// Appends the rims of the spheres.
+  static void append_outline(const Shot& shot, const Projection& project, std::vector<OutlineSegment>& outline);
 
  private:
   const GlFunctions& gl_;

@@ -5,11 +5,13 @@
 #include <span>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "render/canvas.hpp"
 #include "render/draw_cloth.hpp"
 #include "render/draw_obstacles.hpp"
 #include "render/gl/device.hpp"
+#include "render/outline.hpp"
 #include "render/shadows.hpp"
 #include "render/shot.hpp"
 
@@ -66,15 +68,16 @@ class Renderer::Implementation {
     if (previous) canvas_.read();
     draw(shot);
     started_ = true;
+    const std::vector<OutlineSegment> outline = std::exchange(outline_, find_outline(shot));
     if (!previous) return std::nullopt;
-    return canvas_.compose();
+    return canvas_.compose(outline);
   }
 
   std::optional<Image> finish() {
     if (!std::exchange(started_, false)) return std::nullopt;
     device_->make_current();
     canvas_.read();
-    return canvas_.compose();
+    return canvas_.compose(outline_);
   }
 
   [[nodiscard]] std::string description() const {
@@ -110,6 +113,17 @@ class Renderer::Implementation {
     canvas_.finish();
   }
 
+  /// Returns the outlines to smooth in what was drawn: with several samples per pixel none.
+  [[nodiscard]] std::vector<OutlineSegment> find_outline(const Shot& shot) const {
+    std::vector<OutlineSegment> outline;
+    if (look_.samples > 1) return outline;
+    const Projection project(shot, size_);
+    cloth_.append_outline(project, outline);
+    DrawSphere::append_outline(shot, project, outline);
+    if (!shot.bodies.empty()) bodies_->append_outline(shot, project, outline);
+    return outline;
+  }
+
   [[nodiscard]] const ClothShadow* shadow() const { return shadow_ ? &*shadow_ : nullptr; }
 
   Eigen::Vector2i size_;
@@ -120,11 +134,12 @@ class Renderer::Implementation {
   Canvas canvas_;
   DrawCloth cloth_;
   Occluders occluders_;
-  std::optional<ClothShadow> shadow_;  // absent if the look has none
-  std::optional<DrawSphere> spheres_;  // made at the first frame with a sphere
-  std::optional<DrawGround> grounds_;  // likewise
-  std::optional<DrawBody> bodies_;     // likewise
-  bool started_ = false;               // true while Mesa draws a frame that has not been read
+  std::optional<ClothShadow> shadow_;    // absent if the look has none
+  std::optional<DrawSphere> spheres_;    // made at the first frame with a sphere
+  std::optional<DrawGround> grounds_;    // likewise
+  std::optional<DrawBody> bodies_;       // likewise
+  std::vector<OutlineSegment> outline_;  // of the frame that was started last
+  bool started_ = false;                 // true while Mesa draws a frame that has not been read
 };
 
 namespace {

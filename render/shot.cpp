@@ -95,6 +95,18 @@ std::vector<std::string> light_defines(const Look& look, std::size_t sphere_coun
   return defines;
 }
 
+bool resolves(const Shot& shot, double length, double pixels, int height) {
+  // The projection's rows scale a unit vector: the second to half the picture's height at a depth of 1.
+  const Eigen::Matrix4d projection = shot.view_projection.cast<double>();
+  const double farthest = projection.block<1, 3>(1, 0).norm() * height / 2 * length / pixels;
+  const Eigen::RowVector3d back = projection.block<1, 3>(3, 0);
+  for (const auto x : shot.frame.positions.rowwise()) {
+    const double depth = back.dot(x) + projection(3, 3);
+    if (depth > 0 && depth < farthest) return true;
+  }
+  return false;
+}
+
 namespace {
 
 /// Bounding box of points of a shot, in the picture.

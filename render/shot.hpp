@@ -44,6 +44,11 @@ Eigen::Vector3d key_light(const View& view, const Look& look);
 /// @param shadows true if shadows may fall on the drawn objects
 std::vector<std::string> light_defines(const Look& look, std::size_t sphere_count, bool shadows);
 
+/// Returns true if a length spans so many pixels at some vertex of the cloth.
+/// @param length [m]
+/// @param height height of the picture [pixels]
+bool resolves(const Shot& shot, double length, double pixels, int height);
+
 /// A rectangle of pixels, with its corner counted from the lower left.
 struct PixelBox {
   Eigen::Vector2i corner{0, 0};

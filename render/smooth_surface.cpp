@@ -240,6 +240,8 @@ Hem::Hem(const SmoothSurface& surface, double thickness) : thickness_(thickness)
       triangles_.push_back({b, a + 1, b + 1});
       pieces_.insert(pieces_.end(), 2, edge.piece);
     }
+    const int inside = surface.pieces()[static_cast<std::size_t>(edge.piece)].corners[(edge.corner + 2) % 3];
+    for (const int k : {0, ring - 1}) joints_.push_back({first + ring * p + k, first + ring * q + k, inside});
   }
 }
 

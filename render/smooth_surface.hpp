@@ -68,6 +68,8 @@ inline Eigen::Vector3d unit_vector(const Eigen::Vector3d& v) {
 /// thickness visible.
 class Hem {
  public:
+  static constexpr double least_pixels = 1.5;  ///< thickness in a picture below which the hem is not drawn
+
   /// The corner of a piece that a vertex of the tube belongs to.
   struct Corner {
     int piece;
@@ -79,6 +81,9 @@ class Hem {
   Hem(const SmoothSurface& surface, double thickness);
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// Returns triangles, not to be drawn, that join the tube to the pieces at its front and back: with them, the tube's
+  /// edges tell on which side the cloth lies.
+  [[nodiscard]] const std::vector<Triangle>& joints() const { return joints_; }
   /// Returns the adjacent piece of each triangle.
   [[nodiscard]] const std::vector<int>& pieces() const { return pieces_; }
   [[nodiscard]] const std::vector<Corner>& corners() const { return corners_; }
@@ -97,7 +102,7 @@ class Hem {
 
   double thickness_;
   std::vector<BorderVertex> border_;
-  std::vector<Triangle> triangles_;
+  std::vector<Triangle> triangles_, joints_;
   std::vector<int> pieces_;
   std::vector<Corner> corners_;  // per vertex of the hem
 };

@@ -396,7 +396,6 @@ void make_draft(Scene& scene, const Given& given) {
   constexpr double coarser = 10;  // factor of a tolerance
   if (!given("video.size")) scene.video.size = (scene.video.size / 2).cwiseMax(smallest);
   if (!given("video.fps")) scene.video.fps = std::min(scene.video.fps, rate);
-  if (!given("look.samples")) scene.look.samples = 1;
   if (!given("look.ambient_occlusion")) scene.look.ambient_occlusion = false;
   IntegratorSettings& integrator = scene.simulation.integrator;
   if (integrator.tolerance && !given("integrator.tolerance")) *integrator.tolerance *= coarser;

@@ -205,7 +205,10 @@ Keys look_keys(Look& look, std::optional<Quality>& quality) {
       .at_least(-90)
       .at_most(90);
   keys.add("backdrop", &look.backdrop, "", "A floor below the motion, in `ground_color`, that only shows shadows.");
-  keys.add("samples", &look.samples, "", "Antialiasing samples per pixel: 1 (off), 2 or 4.").at_least(1).at_most(4);
+  keys.add("samples", &look.samples, "",
+           "Samples per pixel: 1, 2 or 4. With 1, outlines are smoothed by the part of a pixel that they cover.")
+      .at_least(1)
+      .at_most(4);
   keys.choice("quality", quality, {"draft", "film", "print"},
               "Everything that trades time for detail: draft halves size, rate and a grid's cells, print doubles the "
               "size, see [command-line.md](command-line.md#quality).");

@@ -74,9 +74,9 @@ TEST_F(CheckScene, SaysThatTheFilmHasAnotherSizeThanItsPictures) {
 
 TEST_F(CheckScene, SaysThatTheFilmHasOtherSamples) {
   bless();
-  const SceneResult coarse = check({"look.samples=1"});
-  EXPECT_EQ(coarse.verdict, SceneVerdict::changed);
-  EXPECT_EQ(film_sentence(coarse), "the film has 1 sample per pixel, the golden one 4");
+  const SceneResult finer = check({"look.samples=4"});
+  EXPECT_EQ(finer.verdict, SceneVerdict::changed);
+  EXPECT_EQ(film_sentence(finer), "the film has 4 samples per pixel, the golden one 1");
 }
 
 TEST_F(CheckScene, SaysNothingOfTheFilmToAGoldenThatHasNoneOfItsSettings) {

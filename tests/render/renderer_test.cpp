@@ -153,6 +153,7 @@ TEST(Renderer, LeavesNoCracksBetweenTriangles) {
 
 TEST(Renderer, AveragesSamplesAsLightAndEncodesOnce) {
   Look look;
+  look.samples = 4;
   look.color = {0, 0, 0};
   look.background = Rgb{1, 1, 1};
   look.thickness = 0;  // a hem is lit differently

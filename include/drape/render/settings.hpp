@@ -62,7 +62,7 @@ struct Look {
   Rgb body_color{0.47, 0.52, 0.58};
   Rgb ground_color{0.84, 0.83, 0.81};
   double ground_grid = 0.5;  ///< spacing of the lines on the ground [m]; 0: no lines
-  int samples = 4;           ///< per pixel: 1 (off), 2, 4
+  int samples = 1;           ///< per pixel: 1 (outlines are smoothed), 2, 4
   std::optional<ColorBy> color_by = {};
   std::optional<double> color_limit = {};  ///< value of the last colour: a fraction, [m/s] or [1/m]
   bool shadows = true;                     ///< cast by cloth and spheres in the key light

@@ -173,7 +173,7 @@ inline Cells cells_of(const Scene& scene) {
 }
 
 /// Adjusts settings that trade time for detail to the scene's quality, relative to their values.
-///   draft  half the size, at most 12.5 frames per second, one sample, no ambient occlusion, ten times the given
+///   draft  half the size, at most 12.5 frames per second, without ambient occlusion, ten times the given
 ///          tolerance
 ///   print  twice the size, at most 8192 pixels, four samples, textures filtered 16-fold
 /// A tolerance derived from an accuracy stays. Values from the command line stay.
