@@ -1,5 +1,6 @@
 #include "render/outline.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
