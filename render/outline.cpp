@@ -141,7 +141,8 @@ void smooth_outlines(std::span<const OutlineSegment> outline, const PixelBox& bo
     for (std::size_t c = 0; c < 4; ++c) {
       std::uint16_t& value = rgba[4 * blend.pixel + c];
       const float own = value;
-      value = static_cast<std::uint16_t>(own + blend.share * (static_cast<float>(blend.neighbor[c]) - own) + 0.5F);
+      const float mixed = own + blend.share * (static_cast<float>(blend.neighbor[c]) - own);
+      value = static_cast<std::uint16_t>(std::lround(mixed));
     }
   }
 }
