@@ -11,7 +11,6 @@
 #include <numbers>
 #include <numeric>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "drape/render/image.hpp"

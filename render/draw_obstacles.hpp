@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "drape/render/settings.hpp"

@@ -56,8 +56,8 @@ class MeshOutline {
 
 /// Smooths the outlines in a picture of one sample per pixel. A pixel that an outline crosses takes the colour of its
 /// neighbour beyond the outline for the part of the pixel that lies there (Persson 2011, "Geometric Post-process
-/// Anti-Aliasing"). An outline that something nearer hides changes nothing. The part is exact but at the
-/// corners of the outline.
+/// Anti-Aliasing"). An outline that something nearer hides changes nothing. The part is exact but at the corners of the
+/// outline.
 /// @param box   the pixels, row by row from below
 /// @param depth depth of each pixel, 0 to 1
 /// @param rgba  four numbers per pixel

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/render/drawing.hpp"
+#include "tests/support/closed_meshes.hpp"
 
 namespace drape::test {
 namespace {
@@ -140,28 +141,6 @@ TEST(Outline, OfASphereIsItsRim) {
   }
 }
 
-/// Makes a ball of smooth triangles: a cube's faces, projected.
-Mesh ball(double radius, int cells) {
-  const Mesh face = make_grid(cells, cells);
-  const Eigen::Index count = face.positions.rows();
-  Mesh mesh;
-  mesh.positions.resize(6 * count, 3);
-  for (int side = 0; side < 6; ++side) {
-    const int axis = side / 2;
-    const double sign = side % 2 == 0 ? 1 : -1;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      Eigen::Vector3d p;
-      p[axis] = sign;
-      p[(axis + 1) % 3] = sign * face.positions(i, 0);
-      p[(axis + 2) % 3] = face.positions(i, 1);
-      mesh.positions.row(side * count + i) = radius * p.normalized().transpose();
-    }
-    const int first = static_cast<int>(side * count);
-    for (const Triangle& t : face.triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-  return mesh;
-}
-
 MeshShape shape(const Mesh& mesh) {
   return {.triangles = std::make_shared<std::vector<Triangle>>(mesh.triangles), .positions = mesh.positions};
 }
@@ -169,7 +148,7 @@ MeshShape shape(const Mesh& mesh) {
 TEST(Outline, OfACurvedBodyIsWhereItTurnsAway) {
   const double radius = 0.7, distance = 5;
   const double rim = std::tan(std::asin(radius / distance)) * distance * height / 2;
-  const Eigen::MatrixXd covered = coverage(nothing(), {shape(ball(radius, 40))});
+  const Eigen::MatrixXd covered = coverage(nothing(), {shape(ball(40, radius))});
   EXPECT_NEAR(covered.sum(), std::numbers::pi * rim * rim, 3e-3 * std::numbers::pi * rim * rim);
   int between = 0;
   for (Eigen::Index k = 0; k < covered.size(); ++k) {

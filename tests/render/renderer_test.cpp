@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "drape/core/error.hpp"
@@ -139,8 +140,9 @@ TEST(Renderer, LeavesNoCracksBetweenTriangles) {
   look.background = Rgb{1, 0, 1};
   look.color = {0, 0.4, 0};
   const View inside{{0.1, 0.2, 0.1}, {1, 0.7, 0.4}, {0, 0, 1}, 80};
-  for (const bool lines : {false, true}) {
+  for (const auto& [lines, samples] : {std::pair(false, 1), {true, 1}, {false, 4}, {true, 4}}) {
     look.mesh_lines = lines;
+    look.samples = samples;
     look.line_color = {0, 0, 0};
     const Image image = draw(closed_surface(12), inside, look, {301, 200});
     int red = 0;
