@@ -22,7 +22,7 @@ namespace {
 constexpr int drawn_frames = 20;  // evenly spread over the film
 
 struct DrawnFilm {
-  Scene scene;
+  LoadedScene scene;
   std::vector<Frame> frames;
   View view;
 };
@@ -51,7 +51,7 @@ DrawnFilm make_film(const std::string& file) {
 }
 
 Subject make_drawing(const std::shared_ptr<DrawnFilm>& film, bool lit) {
-  if (film->frames.empty()) *film = make_film(film->scene.file);
+  if (film->frames.empty()) *film = make_film(film->scene.source.file);
   Look look = film->scene.look;
   if (!lit) {
     look.shadows = look.ambient_occlusion = false;
@@ -77,7 +77,7 @@ std::vector<std::string> register_drawing() {
   for (const char* scene : {"homework/1", "homework/4", "homework/5", "showcase/ground", "showcase/moving_pins",
                             "showcase/moving_sphere", "showcase/self_collision", "showcase/wind"}) {
     const auto film = std::make_shared<DrawnFilm>();
-    film->scene.file = fmt::format("scenes/{}.toml", scene);
+    film->scene.source.file = fmt::format("scenes/{}.toml", scene);
     names.push_back(fmt::format("draw/{}", scene));
     register_subject(names.back(), "with", drawn_frames, [film] { return make_drawing(film, true); });
     register_subject(names.back(), "without", drawn_frames, [film] { return make_drawing(film, false); });

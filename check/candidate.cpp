@@ -142,11 +142,11 @@ Whole accepted(const Candidate& candidate, const std::vector<int>& frames) {
 
 }  // namespace
 
-std::string write_candidate(const fs::path& report, const std::string& name, const Scene& scene, const Golden& golden,
-                            const std::vector<Png>& pictures) {
+std::string write_candidate(const fs::path& report, const std::string& name, const LoadedScene& scene,
+                            const Golden& golden, const std::vector<Png>& pictures) {
   write_golden(report / name / "candidate", golden, pictures);
-  Json json{{"scene_hash", scene.digest}, {"program", program_hash()}};
-  describe_path(scene.file, json);
+  Json json{{"scene_hash", scene.source.digest}, {"program", program_hash()}};
+  describe_path(scene.source.file, json);
   write_file_atomically(description_file(report, name),
                         json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   return candidate_hash(report / name / "candidate");

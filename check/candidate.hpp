@@ -16,14 +16,14 @@ struct Candidate {
   std::string hash;                  ///< hash of the manifest, as listed in report.json
   std::string name;                  ///< name of the scene in the report
   std::filesystem::path scene_file;  ///< path as given to the check
-  std::string scene_digest;          ///< digest of the checked scene, see Scene::digest
+  std::string scene_digest;          ///< digest of the checked scene, see SceneSource::digest
   std::string program;               ///< hash of the computing program, see program_hash()
 };
 
 /// Writes a candidate.
 /// @returns its hash for the report, which distinguishes it from the candidates of other checks
 /// @throws OutputError
-std::string write_candidate(const std::filesystem::path& report, const std::string& name, const Scene& scene,
+std::string write_candidate(const std::filesystem::path& report, const std::string& name, const LoadedScene& scene,
                             const Golden& golden, const std::vector<Png>& pictures);
 
 /// Checks that files in a candidate's place beside a report, if any, are drape's own.

@@ -32,11 +32,11 @@ std::size_t thread_count(const CheckOptions& options) {
 }
 
 /// Returns a result with the scene's data before the check.
-SceneResult unchecked(const Scene& scene, const std::string& name, const CheckSettings& settings) {
+SceneResult unchecked(const LoadedScene& scene, const std::string& name, const CheckSettings& settings) {
   SceneResult result;
   result.name = name;
-  result.file = scene.file;
-  result.golden = golden_folder(scene.file);
+  result.file = scene.source.file;
+  result.golden = golden_folder(scene.source.file);
   result.settings = settings;
   const Eigen::Vector2i size = picture_size(scene, settings);
   result.size = {size.x(), size.y()};
@@ -46,7 +46,7 @@ SceneResult unchecked(const Scene& scene, const std::string& name, const CheckSe
 /// The check of one scene, from its golden to its verdict.
 class SceneCheck {
  public:
-  SceneCheck(const Scene& scene, const std::string& name, const CheckSettings& settings, PlayedMotion* recorded,
+  SceneCheck(const LoadedScene& scene, const std::string& name, const CheckSettings& settings, PlayedMotion* recorded,
              const CheckOptions& options, const std::stop_token& stop, Progress& progress)
       : scene_(scene),
         settings_(settings),
@@ -163,9 +163,9 @@ class SceneCheck {
   /// Returns the digest of the scene file without overrides. If it is no valid scene on its own, returns the golden's
   /// digest: the file then counts as unchanged.
   [[nodiscard]] std::string digest_without_overrides() const {
-    if (!overridden() || scene_.digest == no_scene_digest) return scene_.digest;
+    if (!overridden() || scene_.source.digest == no_scene_digest) return scene_.source.digest;
     try {
-      return digest_of_file(scene_.file);
+      return digest_of_file(scene_.source.file);
     } catch (const UsageError&) {
       return golden_.scene_digest;
     }
@@ -328,7 +328,7 @@ class SceneCheck {
         write_candidate(options_.artefacts, result_.name, scene_, recording->golden, recording->pictures);
   }
 
-  Scene scene_;
+  LoadedScene scene_;
   const CheckSettings& settings_;
   PlayedMotion* recorded_;  // null: the scene is simulated
   const CheckOptions& options_;
@@ -341,7 +341,7 @@ class SceneCheck {
 
 }  // namespace
 
-SceneResult check_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
+SceneResult check_scene(const LoadedScene& scene, const std::string& name, const CheckSettings& settings,
                         const CheckOptions& options, const std::stop_token& stop, Progress& progress,
                         PlayedMotion* recorded) {
   const auto begin = std::chrono::steady_clock::now();
@@ -352,7 +352,7 @@ SceneResult check_scene(const Scene& scene, const std::string& name, const Check
   return result;
 }
 
-SceneResult unjudged_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
+SceneResult unjudged_scene(const LoadedScene& scene, const std::string& name, const CheckSettings& settings,
                            const Error& error) {
   SceneResult result = unchecked(scene, name, settings);
   result.verdict = SceneVerdict::error;
@@ -361,7 +361,7 @@ SceneResult unjudged_scene(const Scene& scene, const std::string& name, const Ch
   return result;
 }
 
-std::optional<Recording> record_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
+std::optional<Recording> record_scene(const LoadedScene& scene, const CheckSettings& settings, GlBackend backend,
                                       const std::stop_token& stop, Progress& progress, PlayedMotion* recorded) {
   if (recorded != nullptr) recorded->require_every_step(scene);
   const std::optional<RecordPlan> plan = plan_recording(scene, settings, stop, progress, recorded);
@@ -377,13 +377,13 @@ std::optional<Recording> record_scene(const Scene& scene, const CheckSettings& s
   return Recording{std::move(*golden), std::move(pictures)};
 }
 
-std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
+std::optional<Blessing> bless_scene(const LoadedScene& scene, const CheckSettings& settings, GlBackend backend,
                                     const std::stop_token& stop, Progress& progress, PlayedMotion* recorded) {
-  has_golden(golden_folder(scene.file));  // throws if another file is in its place
+  has_golden(golden_folder(scene.source.file));  // throws if another file is in its place
   require_texture(scene);
   const std::optional<Recording> recording = record_scene(scene, settings, backend, stop, progress, recorded);
   if (!recording) return std::nullopt;
-  Blessing blessing{.folder = golden_folder(scene.file), .frames = static_cast<int>(recording->pictures.size())};
+  Blessing blessing{.folder = golden_folder(scene.source.file), .frames = static_cast<int>(recording->pictures.size())};
   blessing.size = write_golden(blessing.folder, recording->golden, recording->pictures);
   return blessing;
 }

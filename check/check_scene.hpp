@@ -52,7 +52,7 @@ struct Recording {
 /// @param recorded the motion; null: the scene is simulated
 /// @returns nothing if stopped
 /// @throws DivergedError, UsageError, OutputError
-std::optional<Recording> record_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
+std::optional<Recording> record_scene(const LoadedScene& scene, const CheckSettings& settings, GlBackend backend,
                                       const std::stop_token& stop, Progress& progress,
                                       PlayedMotion* recorded = nullptr);
 
@@ -62,19 +62,19 @@ std::optional<Recording> record_scene(const Scene& scene, const CheckSettings& s
 /// @returns nothing if stopped; then nothing is written
 /// @throws UsageError early if another file is in the golden's place, see has_golden()
 /// @throws DivergedError, UsageError, OutputError
-std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
+std::optional<Blessing> bless_scene(const LoadedScene& scene, const CheckSettings& settings, GlBackend backend,
                                     const std::stop_token& stop, Progress& progress, PlayedMotion* recorded = nullptr);
 
 /// Compares a scene with its golden.
 /// @param name     of the scene in the report
 /// @param recorded as for record_scene(); its motion is compared as a whole, its time is ignored
 /// @throws UsageError if the golden is damaged or lacks a frame; DivergedError, OutputError
-SceneResult check_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
+SceneResult check_scene(const LoadedScene& scene, const std::string& name, const CheckSettings& settings,
                         const CheckOptions& options, const std::stop_token& stop, Progress& progress,
                         PlayedMotion* recorded = nullptr);
 
 /// Returns the result of a scene for which check_scene() threw this error.
-SceneResult unjudged_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
+SceneResult unjudged_scene(const LoadedScene& scene, const std::string& name, const CheckSettings& settings,
                            const Error& error);
 
 }  // namespace drape

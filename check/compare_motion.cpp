@@ -253,13 +253,13 @@ std::string describe_motion(const std::vector<WindowResult>& windows) {
   return text;
 }
 
-void PlayedMotion::require_every_step(const Scene& scene) const {
+void PlayedMotion::require_every_step(const LoadedScene& scene) const {
   const auto states = static_cast<std::int64_t>(reader_.states());
   if (reader_.last_step() == scene.step_count() && states == scene.step_count() + 1) return;
   throw UsageError(
       fmt::format("{}: it has {} states of {} steps, and a check needs all: give the frames' rate with fps, or record "
                   "the motion with --every 1",
-                  shown(scene.file), states, scene.step_count()));
+                  shown(scene.source.file), states, scene.step_count()));
 }
 
 State PlayedMotion::state(std::int64_t step) {

@@ -61,7 +61,7 @@ class PlayedMotion {
   explicit PlayedMotion(MotionReader& reader) : reader_(reader) {}
 
   /// Checks that there is a state for every step of the scene. @throws UsageError that names the motion
-  void require_every_step(const Scene& scene) const;
+  void require_every_step(const LoadedScene& scene) const;
 
   /// Reorders the vertices from now on: vertex i is the file's vertex order[i].
   void set_order(VertexOrder order) { order_ = std::move(order); }

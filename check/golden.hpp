@@ -67,7 +67,7 @@ struct GoldenTime {
 
 /// The golden of a scene: the complete reference data of its checks.
 struct Golden {
-  std::string scene_digest;  ///< Scene::digest
+  std::string scene_digest;  ///< SceneSource::digest
   std::string date;          ///< "2026-01-31T12:00:00Z"
   Machine machine;
   Eigen::Vector2i size{0, 0};   ///< size of the pictures [pixels]

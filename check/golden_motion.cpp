@@ -283,9 +283,9 @@ int row_of(const Cloth& cloth) {
 }
 
 /// Returns the known parts of a golden before its motion is run.
-Golden described(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan) {
+Golden described(const LoadedScene& scene, const CheckSettings& settings, const RecordPlan& plan) {
   Golden golden;
-  golden.scene_digest = scene.digest;
+  golden.scene_digest = scene.source.digest;
   golden.size = picture_size(scene, settings);
   golden.step = scene.simulation.step;
   golden.step_count = scene.step_count();
@@ -317,8 +317,8 @@ Eigen::Vector2i picture_size(const Scene& scene, const CheckSettings& settings) 
   return settings.size.value_or(scene.video.size);
 }
 
-std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings& settings, const std::stop_token& stop,
-                                         Progress& progress, PlayedMotion* recorded) {
+std::optional<RecordPlan> plan_recording(const LoadedScene& scene, const CheckSettings& settings,
+                                         const std::stop_token& stop, Progress& progress, PlayedMotion* recorded) {
   const FilmExtent film = whole_film(scene);
   RecordPlan plan;
   plan.window_steps = recorded != nullptr
@@ -327,8 +327,8 @@ std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings
   plan.quanta = quanta_for(scene.simulation, settings.motion_tolerance);
   for (const int frame : settings.frames) {
     if (frame > film.frames.last) {
-      throw UsageError(fmt::format("{}: frame {} cannot be compared: the film ends with frame {}", shown(scene.file),
-                                   frame, film.frames.last));
+      throw UsageError(fmt::format("{}: frame {} cannot be compared: the film ends with frame {}",
+                                   shown(scene.source.file), frame, film.frames.last));
     }
     plan.frames.push_back({frame, "named by the scene"});
   }
@@ -364,7 +364,7 @@ std::vector<View> views_of_frames(const Scene& scene, const Eigen::Vector2i& siz
   return views;
 }
 
-std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan,
+std::optional<Golden> record_motion(const LoadedScene& scene, const CheckSettings& settings, const RecordPlan& plan,
                                     const std::stop_token& stop, Progress& progress, PlayedMotion* recorded) {
   Golden golden = described(scene, settings, plan);
   const FilmExtent film = whole_film(scene);

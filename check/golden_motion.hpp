@@ -42,8 +42,9 @@ struct RecordPlan {
 /// @param recorded the motion to read; null: the scene is simulated
 /// @throws UsageError if the film has no such frame; DivergedError
 /// @returns nothing if stopped
-std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings& settings, const std::stop_token& stop,
-                                         Progress& progress, PlayedMotion* recorded = nullptr);
+std::optional<RecordPlan> plan_recording(const LoadedScene& scene, const CheckSettings& settings,
+                                         const std::stop_token& stop, Progress& progress,
+                                         PlayedMotion* recorded = nullptr);
 
 /// Returns the plan by which a golden was recorded.
 RecordPlan plan_of(const Golden& golden);
@@ -51,7 +52,7 @@ RecordPlan plan_of(const Golden& golden);
 /// Runs a scene's motion, or reads a recorded one, and places the camera.
 /// @returns a golden without pictures, date and machine; nothing if stopped
 /// @throws DivergedError
-std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan,
+std::optional<Golden> record_motion(const LoadedScene& scene, const CheckSettings& settings, const RecordPlan& plan,
                                     const std::stop_token& stop, Progress& progress, PlayedMotion* recorded = nullptr);
 
 /// Returns the film settings of a scene that its golden keeps.

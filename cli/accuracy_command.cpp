@@ -135,13 +135,13 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   options.parts = parse_parts(arguments.parts);
   options.of_several_scenes = arguments.scenes.size() > 1;
   const std::vector<AnimatedBy> animations = parse_animations(arguments.animations);
-  const std::vector<Scene> scenes = load_scenes(arguments.scenes, options.overrides);
+  const std::vector<LoadedScene> scenes = load_scenes(arguments.scenes, options.overrides);
   // Report input errors before hours of work.
   for (const std::string& file : arguments.scenes) check_accuracy(file, options);
   if (!animations.empty() || options.parts.films) {
     inspect_backend(options.backend);
     if (!animations.empty()) const Fonts fonts;
-    for (const Scene& scene : scenes) require_texture(scene);
+    for (const LoadedScene& scene : scenes) require_texture(scene);
   }
   AccuracyStudy study;
   study.command = command_line(arguments);

@@ -113,7 +113,7 @@ std::string run_options(const CheckArguments& arguments) {
 /// Checker of scenes by index.
 class SceneChecker {
  public:
-  SceneChecker(const std::vector<Scene>& scenes, const std::vector<std::shared_ptr<MotionReader>>& recorded,
+  SceneChecker(const std::vector<LoadedScene>& scenes, const std::vector<std::shared_ptr<MotionReader>>& recorded,
                const CheckArguments& arguments, const CheckOptions& options)
       : scenes_(scenes),
         recorded_(recorded),
@@ -123,7 +123,7 @@ class SceneChecker {
 
   /// Checks a scene. Its errors become part of the result.
   [[nodiscard]] SceneResult judge(std::size_t place, const std::stop_token& stop, Progress& progress) const {
-    const Scene& scene = scenes_[place];
+    const LoadedScene& scene = scenes_[place];
     const CheckSettings settings = settings_of(scene, arguments_);
     SceneResult result;
     try {
@@ -135,7 +135,7 @@ class SceneChecker {
     } catch (const std::bad_alloc&) {
       result = unjudged_scene(scene, names_[place], settings, UsageError("there is not enough memory for this"));
     }
-    const std::string file = shell_file(scene.file.string());
+    const std::string file = shell_file(scene.source.file.string());
     result.rerun_command = "drape check " + file + command_options(arguments_) + scene_run_options(arguments_);
     if (result.has_candidate()) {
       result.accept_command = accept_command(options_.artefacts) + " " + shell_word(result.name);
@@ -149,7 +149,7 @@ class SceneChecker {
   [[nodiscard]] const std::filesystem::path& folder() const { return options_.artefacts; }
 
  private:
-  const std::vector<Scene>& scenes_;
+  const std::vector<LoadedScene>& scenes_;
   const std::vector<std::shared_ptr<MotionReader>>& recorded_;  // null for simulated scenes
   const CheckArguments& arguments_;
   const CheckOptions& options_;
@@ -192,7 +192,7 @@ bool check_all(const SceneChecker& judge, const std::vector<std::size_t>& places
 }
 
 /// Returns the scene indices of a shard. Shards have about equal estimated costs.
-std::vector<std::size_t> places_of(const std::vector<Scene>& scenes, const Shard& shard) {
+std::vector<std::size_t> places_of(const std::vector<LoadedScene>& scenes, const Shard& shard) {
   std::vector<double> costs;
   for (const Scene& scene : scenes) costs.push_back(estimated_cost(scene, {}));
   return runs_of_shard(costs, shard);
@@ -233,7 +233,7 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
                              .overrides = override_options(arguments)};
   require_golden_values(options);
   require_no_golden(arguments.report);
-  std::vector<Scene> scenes;
+  std::vector<LoadedScene> scenes;
   std::vector<std::shared_ptr<MotionReader>> recorded;
   for (SceneToRun& opened : open_scenes(arguments.scenes, arguments.overrides)) {
     scenes.push_back(std::move(opened.scene));
@@ -311,9 +311,10 @@ struct BlessArguments {
 ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
   const std::vector<int> frames = parse_frame_list(arguments.frames);
   const std::vector<SceneToRun> scenes = open_scenes(arguments.scenes, {});
-  for (const auto& [scene, recorded] : scenes) has_golden(golden_folder(scene.file));  // check all before blessing any
+  for (const auto& [scene, recorded] : scenes)
+    has_golden(golden_folder(scene.source.file));  // check all before blessing any
   for (const SceneToRun& opened : scenes) {
-    const Scene& scene = opened.scene;
+    const LoadedScene& scene = opened.scene;
     CheckSettings settings = scene.check;
     if (!frames.empty()) settings.frames = frames;
     std::optional<Blessing> blessing;
@@ -323,7 +324,7 @@ ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
       blessing = bless_scene(scene, settings, arguments.backend, stop, progress, played ? &*played : nullptr);
     });
     if (!blessing) {
-      spdlog::error("interrupted: {} is unchanged", shown(golden_folder(scene.file)));
+      spdlog::error("interrupted: {} is unchanged", shown(golden_folder(scene.source.file)));
       return ExitCode::interrupted;
     }
     if (!common.quiet) {

@@ -38,7 +38,7 @@ int last_of(const std::vector<std::string>& varied) {
 /// @param overrides of each scene
 /// @param recorded  motion of each scene; null: it is simulated
 void share_method(const std::vector<std::vector<std::string>>& overrides,
-                  const std::vector<std::shared_ptr<MotionReader>>& recorded, std::vector<Scene>& scenes) {
+                  const std::vector<std::shared_ptr<MotionReader>>& recorded, std::vector<LoadedScene>& scenes) {
   std::vector<std::optional<MethodChoice>> choices;
   for (std::size_t i = 0; i < scenes.size(); ++i) choices.push_back(recorded[i] ? std::nullopt : scenes[i].choice);
   const std::vector<std::vector<std::string>> shared = shared_method_overrides(choices);
@@ -46,15 +46,15 @@ void share_method(const std::vector<std::vector<std::string>>& overrides,
     if (shared[i].empty()) continue;
     std::vector<std::string> all = overrides[i];
     all.insert(all.end(), shared[i].begin(), shared[i].end());
-    scenes[i] = open_scene(scenes[i].file.string(), all).scene;
+    scenes[i] = open_scene(scenes[i].source.file.string(), all).scene;
   }
 }
 
 /// Loads the scenes in all variations.
 /// @returns the scenes, and the motion of each if it is in a file
-std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_variations(
+std::pair<std::vector<LoadedScene>, std::vector<std::shared_ptr<MotionReader>>> load_variations(
     const CompareArguments& arguments) {
-  std::vector<Scene> scenes;
+  std::vector<LoadedScene> scenes;
   std::vector<std::shared_ptr<MotionReader>> recorded;
   std::vector<std::vector<std::string>> overrides;
   SceneProblems problems;
@@ -86,7 +86,7 @@ std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_v
 }
 
 /// Sets the frame interval and the frames to draw. The first scene defines the time.
-void choose_moments(const CompareArguments& arguments, std::vector<Scene>& scenes, CompareOptions& options) {
+void choose_moments(const CompareArguments& arguments, std::vector<LoadedScene>& scenes, CompareOptions& options) {
   Scene& first = scenes.front();
   if (!arguments.every.empty()) {
     const double step = first.simulation.step;
@@ -133,7 +133,7 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.largest_file = parse_file_limit(arguments.max_size, arguments.keep, options.outputs);
   options.command = common.command;
-  std::vector<Scene> scenes;
+  std::vector<LoadedScene> scenes;
   std::tie(scenes, options.recorded) = load_variations(arguments);
   choose_moments(arguments, scenes, options);
   std::vector<RunOptions> files(scenes.size());
@@ -143,7 +143,7 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
   require_comparison(scenes, options);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     if (const auto& motion = options.recorded[i]) {
-      warn_of_gaps(shown(scenes[i].file), *motion, compared_extent(scenes, options, i));
+      warn_of_gaps(shown(scenes[i].source.file), *motion, compared_extent(scenes, options, i));
     }
   }
 

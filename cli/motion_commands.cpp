@@ -141,7 +141,7 @@ std::vector<std::string> pages_of(const AuditArguments& arguments, const std::ve
 ExitCode audit_one(const AuditArguments& arguments, const SceneToRun& motion, const std::string& page,
                    const CommonOptions& common) {
   AuditOptions options = arguments.options;
-  if (motion.recorded) require_steps(shown(motion.scene.file), motion.recorded->last_step(), options.steps);
+  if (motion.recorded) require_steps(shown(motion.scene.source.file), motion.recorded->last_step(), options.steps);
   if (!arguments.held.empty()) options.held = parse_held(arguments.held, motion.scene);
   std::optional<AuditReport> found;
   run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) {

@@ -35,52 +35,52 @@ struct OpenMotion {
 struct GrowingMotion {
   ResumePoint from;
   MotionScene folder;
-  Scene scene;
+  LoadedScene scene;
 
   explicit GrowingMotion(const std::string& file)
       : from(read_resumption(file)), folder(*from.partial), scene(folder.scene()) {}
 };
 
 /// Keeps the solver's tolerance: a quality would change it, but the steps of a recorded motion are already solved.
-void keep_solver(const Scene& scene, Scene& other) {
+void keep_solver(const LoadedScene& scene, LoadedScene& other) {
   if (other.quality == scene.quality) return;
-  for (SceneValue& value : other.tables) {
+  for (SceneValue& value : other.source.tables) {
     if (value.key != "integrator.tolerance" && value.key != "integrator.stop") continue;
-    const auto own = std::ranges::find(scene.tables, value.key, &SceneValue::key);
-    if (own != scene.tables.end()) value.text = own->text;
+    const auto own = std::ranges::find(scene.source.tables, value.key, &SceneValue::key);
+    if (own != scene.source.tables.end()) value.text = own->text;
   }
 }
 
 /// Returns an imported motion's scene with the camera, look and film of another scene, which may have any cloth.
-Scene with_look(Scene scene, const Scene& other) {
+LoadedScene with_look(LoadedScene scene, const LoadedScene& other) {
   scene.camera = other.camera;
   scene.look = other.look;
   scene.video = other.video;
   scene.caption = other.caption;
-  scene.caption_place = other.caption_place;
+  scene.source.caption_place = other.source.caption_place;
   scene.overlay = other.overlay;
-  scene.texture_location = other.texture_location;
+  scene.source.texture_location = other.source.texture_location;
   if (scene.uvs.empty()) scene.look.texture.clear();
   return scene;
 }
 
 /// Returns the scene for drawing a motion: its own, or a replacement.
-Scene scene_to_draw(const std::string& file, const MotionHeader& header, const MotionScene& folder,
-                    const std::vector<std::string>& overrides, const std::string& look) {
-  Scene scene = folder.scene();
+LoadedScene scene_to_draw(const std::string& file, const MotionHeader& header, const MotionScene& folder,
+                          const std::vector<std::string>& overrides, const std::string& look) {
+  LoadedScene scene = folder.scene();
   if (header.imported && !look.empty()) {
     scene = with_look(std::move(scene), load_scene(look, overrides));
   } else if (!look.empty() || !overrides.empty()) {
-    Scene other = look.empty() ? folder.load(overrides) : load_scene(look, overrides, cells_of(scene));
+    LoadedScene other = look.empty() ? folder.load(overrides) : load_scene(look, overrides, cells_of(scene));
     keep_solver(scene, other);
     require_same_physics(file, scene, other, look.empty() ? "--set" : look);
     scene = std::move(other);
   }
-  if (header.imported) scene.fields.clear();  // they do not describe an imported motion
-  scene.file = file;
-  scene.name = scene.file.stem().string();
-  scene.digest = no_scene_digest;
-  scene.inputs.emplace_back(file);
+  if (header.imported) scene.source.fields.clear();  // they do not describe an imported motion
+  scene.source.file = file;
+  scene.name = scene.source.file.stem().string();
+  scene.source.digest = no_scene_digest;
+  scene.source.inputs.emplace_back(file);
   return scene;
 }
 
@@ -121,7 +121,7 @@ std::shared_ptr<ImportedFile> import_for_now(const ImportOptions& options, const
   return imported;
 }
 
-SceneToRun with_scene(const std::shared_ptr<ImportedFile>& imported, Scene scene) {
+SceneToRun with_scene(const std::shared_ptr<ImportedFile>& imported, LoadedScene scene) {
   return {std::move(scene), std::shared_ptr<MotionReader>(imported, imported->opened.recorded.get())};
 }
 
@@ -130,8 +130,8 @@ SceneToRun open_import(const std::string& file, const std::vector<std::string>& 
   std::string name = std::filesystem::path(file).stem().string();
   std::erase_if(name, [](char c) { return c == '{' || c == '}' || c == ':'; });
   const auto imported = import_for_now({.cloths = {file}}, name, overrides, look);
-  Scene scene = imported->opened.scene;
-  scene.file = file;
+  LoadedScene scene = imported->opened.scene;
+  scene.source.file = file;
   scene.name = name;
   return with_scene(imported, std::move(scene));
 }
@@ -139,7 +139,7 @@ SceneToRun open_import(const std::string& file, const std::vector<std::string>& 
 /// Opens a scene that refers to a motion.
 SceneToRun open_scene_of_motion(const std::string& file, const SceneOfMotion& of_motion) {
   const NamedMotion& named = of_motion.named;
-  const Scene& look = of_motion.look;
+  const LoadedScene& look = of_motion.look;
   const ImportOptions options{.cloths = {named.motion},
                               .bodies = named.bodies,
                               .mesh = named.mesh,
@@ -153,15 +153,15 @@ SceneToRun open_scene_of_motion(const std::string& file, const SceneOfMotion& of
     throw UsageError(fmt::format("{}: motion: {}", shown(file), error.what()));
   }
   if (!look.look.texture.empty() && imported->opened.scene.uvs.empty()) {
-    throw UsageError(look.texture_location + ": texture: the motion has no texture coordinates");
+    throw UsageError(look.source.texture_location + ": texture: the motion has no texture coordinates");
   }
-  Scene scene = with_look(imported->opened.scene, look);
+  LoadedScene scene = with_look(imported->opened.scene, look);
   scene.check = look.check;
-  scene.file = look.file;
+  scene.source.file = look.source.file;
   scene.name = look.name;
-  scene.digest = look.digest;
-  scene.inputs = look.inputs;
-  scene.warnings = look.warnings;
+  scene.source.digest = look.source.digest;
+  scene.source.inputs = look.source.inputs;
+  scene.source.warnings = look.source.warnings;
   return with_scene(imported, std::move(scene));
 }
 
@@ -212,7 +212,7 @@ std::optional<ResumableRun> find_resumable_run(const std::string& file, const st
                                                const std::string& look) {
   if (!std::filesystem::exists(growing_name(file)) && std::filesystem::exists(file)) return std::nullopt;
   const auto motion = std::make_shared<GrowingMotion>(file);
-  motion->scene.file = file;
+  motion->scene.source.file = file;
   const MotionHeader& header = motion->from.partial->header();
   if (const std::string program = this_program(); header.program != program) {
     spdlog::warn("{}: begun by drape {}, but this is drape {}: the bits of the rest may differ", file, header.program,
@@ -222,7 +222,7 @@ std::optional<ResumableRun> find_resumable_run(const std::string& file, const st
   options.motion = {.path = file, .recorded = header.recorded};
   options.steps = header.steps;
   options.from = std::shared_ptr<const ResumePoint>(motion, &motion->from);
-  return ResumableRun{std::shared_ptr<const Scene>(motion, &motion->scene), options,
+  return ResumableRun{std::shared_ptr<const LoadedScene>(motion, &motion->scene), options,
                       scene_to_draw(file, header, motion->folder, overrides, look)};
 }
 

@@ -12,7 +12,7 @@ bool is_motion_file(const std::string& file);
 
 /// A scene to run, with its motion if recorded.
 struct SceneToRun {
-  Scene scene;
+  LoadedScene scene;
   std::shared_ptr<MotionReader> recorded;  ///< also keeps the scene's files
 };
 
@@ -40,9 +40,9 @@ std::string motion_to_resume(std::string file);
 
 /// A run to resume.
 struct ResumableRun {
-  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const LoadedScene> scene;
   RunOptions options;
-  Scene drawn;  ///< scene for drawing the complete motion
+  LoadedScene drawn;  ///< scene for drawing the complete motion
 };
 
 /// @param file the motion to resume

@@ -66,8 +66,8 @@ FrameRange frames_at(const FilmTimes& times, const FilmExtent& whole, const std:
   return range;
 }
 
-void choose_frames(const FilmTimes& times, const Scene& scene, RunOptions& options) {
-  if (times.any()) options.frames = frames_at(times, whole_extent(scene, options), shown(scene.file));
+void choose_frames(const FilmTimes& times, const LoadedScene& scene, RunOptions& options) {
+  if (times.any()) options.frames = frames_at(times, whole_extent(scene, options), shown(scene.source.file));
 }
 
 void add_film_times(CLI::App& command, FilmTimes& times, CLI::Option* frames) {

@@ -38,7 +38,7 @@ FrameRange frames_at(const FilmTimes& times, const FilmExtent& whole, const std:
 
 /// Sets the frames of a run with a known number of steps.
 /// @throws UsageError if the film has no such frames
-void choose_frames(const FilmTimes& times, const Scene& scene, RunOptions& options);
+void choose_frames(const FilmTimes& times, const LoadedScene& scene, RunOptions& options);
 
 /// Adds --at, --from and --to.
 /// @param frames the equivalent option --frames

@@ -28,7 +28,7 @@ namespace {
 
 /// Validates all scenes before the first one runs: drawing is possible and files are writable.
 /// @throws Error with the problems of all scenes
-void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options) {
+void look_ahead(const std::vector<LoadedScene>& scenes, const std::vector<RunOptions>& options) {
   require_distinct_files(scenes, options);
   const bool drawn = std::any_of(options.begin(), options.end(), needs_drawing);
   const int largest_texture = drawn ? inspect_backend(options.front().backend).max_texture_size : 0;
@@ -43,7 +43,7 @@ void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>&
     }
   };
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const Scene& scene = scenes[i];
+    const LoadedScene& scene = scenes[i];
     attempt([&] { require_outputs(scene, options[i]); });
     if (!needs_drawing(options[i])) continue;
     attempt([&] { require_texture(scene, largest_texture); });
@@ -61,7 +61,7 @@ void require_no_drawing(const std::vector<std::string>& outputs) {
   }
 }
 
-ExitCode run(const Scene& scene, const RunOptions& options, const RunArguments& arguments,
+ExitCode run(const LoadedScene& scene, const RunOptions& options, const RunArguments& arguments,
              const CommonOptions& common) {
   SceneRun run(scene, options, arguments, common);
   run.announce();
@@ -160,14 +160,14 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
 /// during its simulation, which precedes the drawing, and while its file is completed. Messages keep the order of the
 /// scenes. A failed scene does not stop later ones.
 /// @returns the highest of their codes
-ExitCode run_each(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options,
+ExitCode run_each(const std::vector<LoadedScene>& scenes, const std::vector<RunOptions>& options,
                   const RunArguments& arguments, const CommonOptions& common) {
   ExitCode worst = ExitCode::ok;
   std::unique_ptr<SceneRun> run, next;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     run = std::move(next);
     if (!run && i > 0 && interruption().stop_requested()) {
-      if (worst != ExitCode::interrupted) spdlog::error("interrupted before {}", shown(scenes[i].file));
+      if (worst != ExitCode::interrupted) spdlog::error("interrupted before {}", shown(scenes[i].source.file));
       return ExitCode::interrupted;
     }
     worst = std::max(worst, reported([&] {
@@ -191,12 +191,12 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   if (arguments.scenes.empty() && arguments.resume.empty()) throw UsageError("SCENE is required; see drape --help");
   if (!arguments.drawing) require_no_drawing(arguments.outputs);
   if (!arguments.resume.empty()) return go_on(arguments, common);
-  std::vector<Scene> scenes;
+  std::vector<LoadedScene> scenes;
   std::vector<RunOptions> options;
   for (SceneToRun& found : load_all(arguments)) {
     options.push_back(run_options(arguments, found.scene, common.verbose));
     if (found.recorded) {
-      limit_to_motion(shown(found.scene.file), found.recorded->last_step(), options.back());
+      limit_to_motion(shown(found.scene.source.file), found.recorded->last_step(), options.back());
     }
     choose_frames(arguments.times, found.scene, options.back());
     options.back().recorded = found.recorded;

@@ -90,11 +90,11 @@ void lint(const std::string& file, const std::vector<std::string>& overrides, co
   };
   try {
     if (const auto of_motion = load_scene_of_motion(file, overrides)) return require_texture(of_motion->look);
-    const Scene scene = load_scene(file, overrides);
+    const LoadedScene scene = load_scene(file, overrides);
     require_texture(scene);
     for (const std::string& text : advice_on(scene, read_document(file))) hint(escape_controls(text));
     const std::string pace = advice_on_pace(scene);
-    if (!pace.empty()) hint(fmt::format("{}: slow: {}", shown(scene.file), pace));
+    if (!pace.empty()) hint(fmt::format("{}: slow: {}", shown(scene.source.file), pace));
   } catch (const Error& error) {
     for (std::string_view rest = error.what(); !rest.empty();) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -212,7 +212,7 @@ ExitCode watch(const WatchArguments& arguments, const CommonOptions& common) {
       arguments.quality.empty() ? std::vector<std::string>{"look.quality=draft"} : arguments.quality;
   overrides.insert(overrides.end(), arguments.overrides.begin(), arguments.overrides.end());
   WatchSession session(arguments.scene, overrides, arguments.backend,
-                       [](const Scene& scene, const RunOptions& options) { return describe(scene, options); });
+                       [](const LoadedScene& scene, const RunOptions& options) { return describe(scene, options); });
   const WatchServer server(session, arguments.port);
   print_text(stdout, fmt::format("{}\n", server.address()));
   if (!common.quiet)

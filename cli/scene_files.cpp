@@ -65,8 +65,8 @@ void SceneProblems::throw_if_any(const std::vector<std::string>& files) const {
   if (!text.empty()) throw UsageError(text);
 }
 
-std::vector<Scene> load_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides) {
-  std::vector<Scene> scenes;
+std::vector<LoadedScene> load_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides) {
+  std::vector<LoadedScene> scenes;
   SceneProblems problems;
   for (const std::string& file : files) {
     try {
@@ -79,15 +79,15 @@ std::vector<Scene> load_scenes(const std::vector<std::string>& files, const std:
   return scenes;
 }
 
-std::vector<std::string> unique_names(const std::vector<Scene>& scenes, const std::set<std::string>& taken) {
+std::vector<std::string> unique_names(const std::vector<LoadedScene>& scenes, const std::set<std::string>& taken) {
   constexpr std::size_t longest = 100;
   std::map<std::string, int> with_this_name;
   for (const Scene& scene : scenes) ++with_this_name[scene.name];
   std::set<std::string> used = taken;
   std::vector<std::string> names;
-  for (const Scene& scene : scenes) {
+  for (const LoadedScene& scene : scenes) {
     const std::string folder =
-        std::filesystem::absolute(scene.file).lexically_normal().parent_path().filename().string();
+        std::filesystem::absolute(scene.source.file).lexically_normal().parent_path().filename().string();
     const std::string stem =
         as_name_in_folder(with_this_name[scene.name] > 1 ? folder + "-" + scene.name : scene.name, longest);
     std::string name = stem;
@@ -129,9 +129,9 @@ std::vector<Writer> writers(std::size_t number, const Scene& scene, const RunOpt
 
 class Clashes {
  public:
-  explicit Clashes(const std::vector<Scene>& scenes) : scenes_(scenes) {
-    for (const Scene& scene : scenes) {
-      for (const std::filesystem::path& input : scene.inputs) readers_.emplace(file_identity(input), &scene);
+  explicit Clashes(const std::vector<LoadedScene>& scenes) : scenes_(scenes) {
+    for (const LoadedScene& scene : scenes) {
+      for (const std::filesystem::path& input : scene.source.inputs) readers_.emplace(file_identity(input), &scene);
     }
   }
 
@@ -142,7 +142,8 @@ class Clashes {
       const std::string identity = file_identity(file);
       const auto reader = readers_.find(identity);
       if (reader != readers_.end()) {
-        return fmt::format("{} would overwrite {}, an input of {}", writer.option, file, shown(reader->second->file));
+        return fmt::format("{} would overwrite {}, an input of {}", writer.option, file,
+                           shown(reader->second->source.file));
       }
       const auto [other, free] = writers_.emplace(identity, Claim{writer.scene, writer.option, file});
       if (!free && problem.empty()) problem = describe(writer, file, other->second);
@@ -161,21 +162,21 @@ class Clashes {
       return fmt::format("{} and {} write the same file{}", other.option, writer.option,
                          file == other.file ? "" : fmt::format(": {} is {}", file, other.file));
     }
-    const Scene &first = scenes_[other.scene], &second = scenes_[writer.scene];
-    return fmt::format("'{}' would be written for {} and again for {}: {}", file, shown(first.file), shown(second.file),
-                       first.name == second.name
-                           ? "they have the same name, so render them one at a time, to different files"
-                           : "put {scene} into the name");
+    const LoadedScene &first = scenes_[other.scene], &second = scenes_[writer.scene];
+    return fmt::format(
+        "'{}' would be written for {} and again for {}: {}", file, shown(first.source.file), shown(second.source.file),
+        first.name == second.name ? "they have the same name, so render them one at a time, to different files"
+                                  : "put {scene} into the name");
   }
 
-  const std::vector<Scene>& scenes_;
-  std::unordered_map<std::string, const Scene*> readers_;
+  const std::vector<LoadedScene>& scenes_;
+  std::unordered_map<std::string, const LoadedScene*> readers_;
   std::unordered_map<std::string, Claim> writers_;
 };
 
 }  // namespace
 
-void require_distinct_files(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options) {
+void require_distinct_files(const std::vector<LoadedScene>& scenes, const std::vector<RunOptions>& options) {
   Clashes clashes(scenes);
   std::string problems;
   for (std::size_t i = 0; i < scenes.size(); ++i) {

@@ -31,15 +31,15 @@ class SceneProblems {
 
 /// Loads all scenes and reports all of their problems at once.
 /// @throws UsageError
-std::vector<Scene> load_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides);
+std::vector<LoadedScene> load_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides);
 
 /// Returns unique names for scenes, valid as file names: their own names, prefixed by the folder if ambiguous.
 /// @param taken reserved names
-std::vector<std::string> unique_names(const std::vector<Scene>& scenes, const std::set<std::string>& taken = {});
+std::vector<std::string> unique_names(const std::vector<LoadedScene>& scenes, const std::set<std::string>& taken = {});
 
 /// Checks that no file is written twice, and that no input is overwritten. Files are compared by identity, not by name.
 /// @param options of each scene
 /// @throws UsageError that lists all such files
-void require_distinct_files(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options);
+void require_distinct_files(const std::vector<LoadedScene>& scenes, const std::vector<RunOptions>& options);
 
 }  // namespace drape

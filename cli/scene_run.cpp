@@ -65,16 +65,16 @@ namespace {
 
 class Advice {
  public:
-  Advice(const Scene& scene, const TomlValue& document)
-      : scene_(scene), document_(document), problems_(scene.file, {}), system_(make_system(scene.simulation)) {}
+  Advice(const LoadedScene& scene, const TomlValue& document)
+      : scene_(scene), document_(document), problems_(scene.source.file, {}), system_(make_system(scene.simulation)) {}
 
   std::vector<std::string> all() && {
-    std::vector<std::string> said = scene_.warnings;
+    std::vector<std::string> said = scene_.source.warnings;
     without_effect();
     camera();
     steps();
     for (const StartOverlap& overlap : start_overlaps(scene_.simulation)) {
-      found_.push_back(fmt::format("{}: {}", shown(scene_.file), overlap_advice(overlap, scene_.simulation)));
+      found_.push_back(fmt::format("{}: {}", shown(scene_.source.file), overlap_advice(overlap, scene_.simulation)));
     }
     said.insert(said.end(), found_.begin(), found_.end());
     return said;
@@ -165,7 +165,7 @@ class Advice {
                     step, step / safe, many / 2 * safe));
   }
 
-  const Scene& scene_;
+  const LoadedScene& scene_;
   const TomlValue& document_;
   Problems problems_;
   System system_;
@@ -174,7 +174,7 @@ class Advice {
 
 }  // namespace
 
-std::vector<std::string> advice_on(const Scene& scene, const TomlValue& document) {
+std::vector<std::string> advice_on(const LoadedScene& scene, const TomlValue& document) {
   return Advice(scene, document).all();
 }
 
@@ -209,7 +209,8 @@ std::string resume_command(const RunArguments& arguments, const std::string& mot
 
 }  // namespace
 
-SceneRun::SceneRun(const Scene& scene, RunOptions options, const RunArguments& arguments, const CommonOptions& common)
+SceneRun::SceneRun(const LoadedScene& scene, RunOptions options, const RunArguments& arguments,
+                   const CommonOptions& common)
     : scene_(scene),
       options_(std::move(options)),
       arguments_(arguments),
@@ -217,7 +218,7 @@ SceneRun::SceneRun(const Scene& scene, RunOptions options, const RunArguments& a
       quiet_(common.quiet || arguments.step_by_step),
       pause_(interruption()),
       slow_(film_extent(scene, options_).steps, needs_drawing(options_),
-            [&scene](const std::string& text) { spdlog::info("{}: {}", shown(scene.file), text); }) {
+            [&scene](const std::string& text) { spdlog::info("{}: {}", shown(scene.source.file), text); }) {
   options_.observer = &separation_;
   separation_.tell_also(slow_);
   if (arguments.step_by_step) separation_.tell_also(pause_);
@@ -225,22 +226,22 @@ SceneRun::SceneRun(const Scene& scene, RunOptions options, const RunArguments& a
 
 void SceneRun::announce() const {
   spdlog::info(describe(scene_, options_));
-  for (const std::string& doubt : scene_.warnings) spdlog::warn(doubt);
+  for (const std::string& doubt : scene_.source.warnings) spdlog::warn(doubt);
   if (scene_.simulation.integrator.allow_unstable) {
     if (const auto problem = stability_problem(scene_.simulation, make_system(scene_.simulation))) {
-      spdlog::warn("{}: {}", shown(scene_.file), *problem);
+      spdlog::warn("{}: {}", shown(scene_.source.file), *problem);
     }
   }
   if (!options_.recorded) {
     for (const StartOverlap& overlap : start_overlaps(scene_.simulation)) {
-      spdlog::warn("{}: {}", shown(scene_.file), overlap_advice(overlap, scene_.simulation));
+      spdlog::warn("{}: {}", shown(scene_.source.file), overlap_advice(overlap, scene_.simulation));
     }
   }
   if (options_.motion) {
     const MotionSpace space = motion_space(scene_, options_);
     if (space.most > space.free) spdlog::warn(space.text(options_.motion->path));
   }
-  if (options_.recorded) warn_of_gaps(shown(scene_.file), *options_.recorded, film_extent(scene_, options_));
+  if (options_.recorded) warn_of_gaps(shown(scene_.source.file), *options_.recorded, film_extent(scene_, options_));
 }
 
 void SceneRun::begin() {
@@ -258,7 +259,7 @@ ExitCode SceneRun::end() {
     print_wrapped(stderr, summarize(result_) + "\n");
     for (const std::string& line : separation_.lines()) print_wrapped(stderr, line + "\n");
   }
-  for (const std::string& doubt : warnings(result_)) spdlog::warn("{}: {}", shown(scene_.file), doubt);
+  for (const std::string& doubt : warnings(result_)) spdlog::warn("{}: {}", shown(scene_.source.file), doubt);
   return conclude();
 }
 
@@ -274,7 +275,7 @@ ExitCode SceneRun::conclude() const {
                     describe_end(result_, resume_command(arguments_, result_.motion ? result_.motion->file : "")));
       return ExitCode::interrupted;
     case Outcome::diverged:
-      spdlog::error("{}: {}", shown(scene_.file), result_.divergence);
+      spdlog::error("{}: {}", shown(scene_.source.file), result_.divergence);
       spdlog::error("ended {}", describe_end(result_));
       return std::max(outputs, ExitCode::diverged);
   }

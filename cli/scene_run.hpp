@@ -45,7 +45,7 @@ class Separation final : public StepObserver {
 /// without mesh_lines". They cover keys without effect, a camera in the cloth, steps too long for the stiffness, and
 /// cloth that starts inside an object.
 /// @param document document of the scene
-std::vector<std::string> advice_on(const Scene& scene, const TomlValue& document);
+std::vector<std::string> advice_on(const LoadedScene& scene, const TomlValue& document);
 
 /// Explains why a run will be slow and how to speed it up; empty if it is fast. It simulates the first steps for at
 /// most a second.
@@ -54,7 +54,7 @@ std::string advice_on_pace(const Scene& scene);
 /// One scene's run on its own threads, with its terminal output. The parameters must outlive it.
 class SceneRun {
  public:
-  SceneRun(const Scene& scene, RunOptions options, const RunArguments& arguments, const CommonOptions& common);
+  SceneRun(const LoadedScene& scene, RunOptions options, const RunArguments& arguments, const CommonOptions& common);
 
   /// Prints a description of the run.
   void announce() const;
@@ -69,7 +69,7 @@ class SceneRun {
  private:
   [[nodiscard]] ExitCode conclude() const;
 
-  const Scene& scene_;
+  const LoadedScene& scene_;
   RunOptions options_;
   const RunArguments& arguments_;
   const CommonOptions& common_;

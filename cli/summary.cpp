@@ -131,18 +131,19 @@ std::string method_text(const Scene& scene) {
 
 }  // namespace
 
-std::string describe(const Scene& scene, const RunOptions& options) {
+std::string describe(const LoadedScene& scene, const RunOptions& options) {
   const SimulationSettings& s = scene.simulation;
   const std::int64_t steps = options.steps.value_or(scene.step_count());
   if (options.recorded) {
     const MotionReader& motion = *options.recorded;
     return fmt::format("{}: motion of {}, {} vertices, {} steps of {:g} s ({:g} s), {} states stored",
-                       shown(scene.file), shown(motion.header().name), motion.header().vertices, motion.last_step(),
-                       s.step, static_cast<double>(motion.last_step()) * s.step, motion.states());
+                       shown(scene.source.file), shown(motion.header().name), motion.header().vertices,
+                       motion.last_step(), s.step, static_cast<double>(motion.last_step()) * s.step, motion.states());
   }
-  std::string text = fmt::format("{}: {}, {} vertices, {} springs, {}, {} steps of {:g} s ({:g} s)", shown(scene.file),
-                                 method_text(scene), s.cloth.vertex_count(), s.cloth.springs.size(),
-                                 shape_of(s.cloth).text(), steps, s.step, static_cast<double>(steps) * s.step);
+  std::string text =
+      fmt::format("{}: {}, {} vertices, {} springs, {}, {} steps of {:g} s ({:g} s)", shown(scene.source.file),
+                  method_text(scene), s.cloth.vertex_count(), s.cloth.springs.size(), shape_of(s.cloth).text(), steps,
+                  s.step, static_cast<double>(steps) * s.step);
   for (const Effect& effect : s.effects) text += ", " + std::string(effect.name());
   return text;
 }

@@ -33,7 +33,7 @@ class StepByStep final : public StepObserver {
 };
 
 /// Describes a simulation before its start, in one line.
-std::string describe(const Scene& scene, const RunOptions& options);
+std::string describe(const LoadedScene& scene, const RunOptions& options);
 
 /// Describes the share of each effect in the steps' time, in one line.
 std::string effect_shares(const Statistics& statistics);

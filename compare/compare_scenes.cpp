@@ -45,7 +45,7 @@ VertexMatch match(const Cloth& cloth, const Cloth& first) {
 
 }  // namespace
 
-std::vector<VertexMatch> match_scenes(const std::vector<Scene>& scenes) {
+std::vector<VertexMatch> match_scenes(const std::vector<LoadedScene>& scenes) {
   std::vector<VertexMatch> all;
   for (const Scene& scene : scenes) all.push_back(match(scene.simulation.cloth, scenes.front().simulation.cloth));
   return all;
@@ -66,13 +66,14 @@ std::string effect_of(const std::string& key) {
   return key.starts_with("effects.") ? key.substr(0, key.rfind('.')) : std::string();
 }
 
-bool has_effect(const Scene& scene, const std::string& effect) {
-  return std::ranges::any_of(scene.fields, [&](const SceneField& field) { return effect_of(field.path) == effect; });
+bool has_effect(const LoadedScene& scene, const std::string& effect) {
+  return std::ranges::any_of(scene.source.fields,
+                             [&](const SceneField& field) { return effect_of(field.path) == effect; });
 }
 
-std::string text_of(const Scene& scene, const std::string& key) {
-  const auto field = std::ranges::find(scene.fields, key, &SceneField::path);
-  return field == scene.fields.end() ? absent : format_field(field->value, "");
+std::string text_of(const LoadedScene& scene, const std::string& key) {
+  const auto field = std::ranges::find(scene.source.fields, key, &SceneField::path);
+  return field == scene.source.fields.end() ? absent : format_field(field->value, "");
 }
 
 bool all_same(const std::vector<std::string>& values) {
@@ -80,12 +81,12 @@ bool all_same(const std::vector<std::string>& values) {
 }
 
 /// Returns distinct names: the scenes' names, else their file names, else their paths; the scenes' names by default.
-std::vector<std::string> names_of(const std::vector<Scene>& scenes) {
+std::vector<std::string> names_of(const std::vector<LoadedScene>& scenes) {
   std::vector<std::vector<std::string>> choices(3);
-  for (const Scene& scene : scenes) {
+  for (const LoadedScene& scene : scenes) {
     choices[0].push_back(scene.name);
-    choices[1].push_back(scene.file.filename().string());
-    choices[2].push_back(scene.file.string());
+    choices[1].push_back(scene.source.file.filename().string());
+    choices[2].push_back(scene.source.file.string());
   }
   for (const std::vector<std::string>& names : choices) {
     if (std::set(names.begin(), names.end()).size() == names.size()) return names;
@@ -107,16 +108,17 @@ std::string difference_text(const KeyDifference& difference, std::size_t scene) 
 
 }  // namespace
 
-std::vector<KeyDifference> differences(const std::vector<Scene>& scenes) {
+std::vector<KeyDifference> differences(const std::vector<LoadedScene>& scenes) {
   // A motion from another program has no keys to compare.
-  if (std::ranges::any_of(scenes, [](const Scene& scene) { return scene.fields.empty(); })) return {};
+  if (std::ranges::any_of(scenes, [](const LoadedScene& scene) { return scene.source.fields.empty(); })) return {};
   std::vector<std::string> keys;
-  for (const Scene& scene : scenes) {
-    for (const SceneField& field : scene.fields) {
+  for (const LoadedScene& scene : scenes) {
+    for (const SceneField& field : scene.source.fields) {
       // Report an effect that some scenes lack as one difference, without its keys.
       const std::string effect = effect_of(field.path);
-      const bool shared =
-          effect.empty() || std::ranges::all_of(scenes, [&](const Scene& other) { return has_effect(other, effect); });
+      const bool shared = effect.empty() || std::ranges::all_of(scenes, [&](const LoadedScene& other) {
+                            return has_effect(other, effect);
+                          });
       const std::string& key = shared ? field.path : effect;
       if (counts(key) && std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
     }
@@ -125,7 +127,7 @@ std::vector<KeyDifference> differences(const std::vector<Scene>& scenes) {
   for (const std::string& key : keys) {
     KeyDifference difference{key, {}};
     const bool is_effect = effect_of(key) == "effects";
-    for (const Scene& scene : scenes) {
+    for (const LoadedScene& scene : scenes) {
       difference.values.push_back(!is_effect ? text_of(scene, key) : has_effect(scene, key) ? present : absent);
     }
     if (!all_same(difference.values)) found.push_back(std::move(difference));
@@ -133,7 +135,7 @@ std::vector<KeyDifference> differences(const std::vector<Scene>& scenes) {
   return found;
 }
 
-std::vector<std::string> labels(const std::vector<Scene>& scenes, const std::vector<KeyDifference>& differences) {
+std::vector<std::string> labels(const std::vector<LoadedScene>& scenes, const std::vector<KeyDifference>& differences) {
   std::vector<KeyDifference> told;  // without keys of the look, which is visible
   std::ranges::copy_if(differences, std::back_inserter(told),
                        [](const KeyDifference& difference) { return !difference.key.starts_with("look."); });
@@ -169,7 +171,7 @@ std::vector<std::string> outputs_that(bool pages, const CompareOptions& options)
 }
 
 /// Returns the frames to draw.
-FrameRange frames_of(const std::vector<Scene>& scenes, const CompareOptions& options) {
+FrameRange frames_of(const std::vector<LoadedScene>& scenes, const CompareOptions& options) {
   const FrameRange all = all_frames(scenes, options), wanted = options.frames.value_or(all);
   if (wanted.last > all.last) {
     throw UsageError(fmt::format("--frames {}..{}: the film ends with frame {}", wanted.first, wanted.last, all.last));
@@ -177,14 +179,14 @@ FrameRange frames_of(const std::vector<Scene>& scenes, const CompareOptions& opt
   return wanted;
 }
 
-PanelLayout layout_of(Pen& pen, const std::vector<Scene>& scenes, const CompareOptions& options, bool bar) {
+PanelLayout layout_of(Pen& pen, const std::vector<LoadedScene>& scenes, const CompareOptions& options, bool bar) {
   return PanelLayout(pen, labels(scenes, differences(scenes)), scenes.front().video.size, options.columns, options.rows,
                      options.difference ? 1 : 0, bar);
 }
 
 class Comparison {
  public:
-  Comparison(const std::vector<Scene>& scenes, const CompareOptions& options, const std::stop_token& stop,
+  Comparison(const std::vector<LoadedScene>& scenes, const CompareOptions& options, const std::stop_token& stop,
              Progress& progress)
       : scenes_(scenes),
         options_(options),
@@ -357,7 +359,7 @@ class Comparison {
     }
   }
 
-  const std::vector<Scene>& scenes_;
+  const std::vector<LoadedScene>& scenes_;
   const CompareOptions& options_;
   const std::stop_token& stop_;
   Progress& progress_;
@@ -380,7 +382,7 @@ class Comparison {
 
 }  // namespace
 
-FilmInfo comparison_info(const std::vector<Scene>& scenes, const CompareOptions& options) {
+FilmInfo comparison_info(const std::vector<LoadedScene>& scenes, const CompareOptions& options) {
   Pen pen;
   const FrameRange frames = frames_of(scenes, options);
   const Scene& first = scenes.front();
@@ -399,7 +401,7 @@ FilmInfo comparison_info(const std::vector<Scene>& scenes, const CompareOptions&
   return film;
 }
 
-void require_comparison(const std::vector<Scene>& scenes, const CompareOptions& options) {
+void require_comparison(const std::vector<LoadedScene>& scenes, const CompareOptions& options) {
   if (scenes.size() < 2) throw UsageError("drape compare needs at least two motions");
   for (const std::string& path : outputs_that(false, options)) {
     if (!format_of(path).drawn()) {
@@ -407,18 +409,18 @@ void require_comparison(const std::vector<Scene>& scenes, const CompareOptions& 
     }
   }
   const int vertices = scenes.front().simulation.cloth.vertex_count();
-  for (const Scene& scene : scenes) {
+  for (const LoadedScene& scene : scenes) {
     if (!options.difference || scene.simulation.cloth.vertex_count() == vertices) continue;
     throw UsageError(fmt::format("--difference compares vertex by vertex, but {} has {} vertices and {} has {}",
-                                 shown(scenes.front().file), vertices, shown(scene.file),
+                                 shown(scenes.front().source.file), vertices, shown(scene.source.file),
                                  scene.simulation.cloth.vertex_count()));
   }
-  for (const Scene& scene : scenes) require_texture(scene);
+  for (const LoadedScene& scene : scenes) require_texture(scene);
   const Outputs films(outputs_that(false, options), comparison_info(scenes, options));
   for (const std::string& path : outputs_that(true, options)) require_writable(path);
 }
 
-CompareResult compare_scenes(const std::vector<Scene>& scenes, const CompareOptions& options,
+CompareResult compare_scenes(const std::vector<LoadedScene>& scenes, const CompareOptions& options,
                              const std::stop_token& stop, Progress& progress) {
   return Comparison(scenes, options, stop, progress).run();
 }
@@ -442,14 +444,14 @@ Frame together(const SynchronisedMotions::Moment& moment) {
 
 }  // namespace
 
-FilmExtent compared_extent(const std::vector<Scene>& scenes, const CompareOptions& options, std::size_t i) {
+FilmExtent compared_extent(const std::vector<LoadedScene>& scenes, const CompareOptions& options, std::size_t i) {
   const Scene& scene = scenes[i];
   const std::int64_t steps =
       options.recorded.empty() || !options.recorded[i] ? scene.step_count() : options.recorded[i]->last_step();
   return FilmExtent(scenes.front().video, scene.simulation.step, options.steps.value_or(steps), std::nullopt);
 }
 
-FrameRange all_frames(const std::vector<Scene>& scenes, const CompareOptions& options) {
+FrameRange all_frames(const std::vector<LoadedScene>& scenes, const CompareOptions& options) {
   FrameRange all;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     all.last = std::max(all.last, compared_extent(scenes, options, i).frames.last);
@@ -457,7 +459,8 @@ FrameRange all_frames(const std::vector<Scene>& scenes, const CompareOptions& op
   return all;
 }
 
-SynchronisedMotions::SynchronisedMotions(const std::vector<Scene>& scenes, const CompareOptions& options, bool often)
+SynchronisedMotions::SynchronisedMotions(const std::vector<LoadedScene>& scenes, const CompareOptions& options,
+                                         bool often)
     : scenes_(scenes), first_count_(compared_extent(scenes, options, 0).frames.count()) {
   const std::optional<std::size_t> memory =
       often ? std::optional(FrameTape::usual_memory / scenes.size()) : std::nullopt;

@@ -31,7 +31,7 @@ struct VertexMatch {
 
 /// Matches the vertices of each scene with those of the first. Indices are kept if the triangles or the start positions
 /// are the same. Otherwise vertices are matched by their start positions, if possible.
-std::vector<VertexMatch> match_scenes(const std::vector<Scene>& scenes);
+std::vector<VertexMatch> match_scenes(const std::vector<LoadedScene>& scenes);
 
 /// A key with different values in some scenes.
 struct KeyDifference {
@@ -41,11 +41,11 @@ struct KeyDifference {
 
 /// Returns the keys that differ, given or by default. Excludes keys that a comparison takes from its first scene:
 /// camera, film, caption and overlay.
-std::vector<KeyDifference> differences(const std::vector<Scene>& scenes);
+std::vector<KeyDifference> differences(const std::vector<LoadedScene>& scenes);
 
 /// Returns a label for each scene that tells it from the others: "liu13, tolerance = 0.001". Uses the scenes' names if
 /// they differ, or if nothing else does.
-std::vector<std::string> labels(const std::vector<Scene>& scenes, const std::vector<KeyDifference>& differences);
+std::vector<std::string> labels(const std::vector<LoadedScene>& scenes, const std::vector<KeyDifference>& differences);
 
 /// Options of a comparison.
 struct CompareOptions {
@@ -89,24 +89,24 @@ struct CompareResult {
 
 /// Returns the times of the i-th motion in a comparison: those of the first scene's film.
 /// @throws UsageError as FilmExtent
-FilmExtent compared_extent(const std::vector<Scene>& scenes, const CompareOptions& options, std::size_t i);
+FilmExtent compared_extent(const std::vector<LoadedScene>& scenes, const CompareOptions& options, std::size_t i);
 
 /// Returns the known properties of a comparison's film; frame rate and size are the first scene's.
 /// @throws UsageError as FilmExtent, and if the grid is too small
-FilmInfo comparison_info(const std::vector<Scene>& scenes, const CompareOptions& options);
+FilmInfo comparison_info(const std::vector<LoadedScene>& scenes, const CompareOptions& options);
 
 /// Checks that scenes can be compared and that all outputs can be opened.
 /// @throws Error as compare_scenes() would
-void require_comparison(const std::vector<Scene>& scenes, const CompareOptions& options);
+void require_comparison(const std::vector<LoadedScene>& scenes, const CompareOptions& options);
 
 /// Draws the motions of scenes side by side, as SynchronisedMotions plays them. All use the first scene's camera, which
 /// has every motion in view.
 /// @param scenes at least two
-CompareResult compare_scenes(const std::vector<Scene>& scenes, const CompareOptions& options,
+CompareResult compare_scenes(const std::vector<LoadedScene>& scenes, const CompareOptions& options,
                              const std::stop_token& stop, Progress& progress);
 
 /// Returns the frames of a comparison, up to the end of the longest motion.
-FrameRange all_frames(const std::vector<Scene>& scenes, const CompareOptions& options);
+FrameRange all_frames(const std::vector<LoadedScene>& scenes, const CompareOptions& options);
 
 /// The motions of a comparison, each at the times of the first scene's film. Each motion is simulated once, for any
 /// number of passes, or read from its file. Frames beyond a memory limit are stored in temporary files.
@@ -117,7 +117,7 @@ class SynchronisedMotions {
 
   /// @param scenes outlive the object
   /// @param often  true if the motions are played more than once, always from start to end
-  SynchronisedMotions(const std::vector<Scene>& scenes, const CompareOptions& options, bool often);
+  SynchronisedMotions(const std::vector<LoadedScene>& scenes, const CompareOptions& options, bool often);
 
   /// Plays all motions from the start; calls work(k, moment) for each frame k up to `last`. Ends early when stopped.
   void play(int last, const std::stop_token& stop, const std::function<void(int, const Moment&)>& work);
@@ -131,7 +131,7 @@ class SynchronisedMotions {
   std::optional<CameraPath> camera_path(int count, const std::stop_token& stop);
 
  private:
-  const std::vector<Scene>& scenes_;
+  const std::vector<LoadedScene>& scenes_;
   int first_count_;  // frames of the first motion's film
   std::deque<FrameSource> sources_;
 };

@@ -41,8 +41,8 @@ Eigen::VectorXd distances(const Frame& frame, const Frame& other, const VertexOr
   return (frame.positions - in_order(other.positions, order)).rowwise().norm();
 }
 
-PanelColors::PanelColors(const std::vector<Scene>& scenes, const std::vector<std::string>& labels, bool difference,
-                         std::optional<double> limit)
+PanelColors::PanelColors(const std::vector<LoadedScene>& scenes, const std::vector<std::string>& labels,
+                         bool difference, std::optional<double> limit)
     : difference_(difference), first_(labels.front()) {
   const Look& look = scenes.front().look;
   if (difference) {

@@ -21,7 +21,7 @@ class PanelColors {
  public:
   /// @param difference true to show distances
   /// @param limit      distance of the last colour [m]; absent: automatic
-  PanelColors(const std::vector<Scene>& scenes, const std::vector<std::string>& labels, bool difference,
+  PanelColors(const std::vector<LoadedScene>& scenes, const std::vector<std::string>& labels, bool difference,
               std::optional<double> limit);
 
   [[nodiscard]] bool wanted() const { return scale_.has_value(); }

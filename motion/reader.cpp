@@ -173,7 +173,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Loads the scene of a motion; problems name the motion's file.
-Scene load_scene_of(const MotionReader& motion, const fs::path& file) {
+LoadedScene load_scene_of(const MotionReader& motion, const fs::path& file) {
   try {
     return load_scene(file);
   } catch (const UsageError& error) {
@@ -185,8 +185,8 @@ Scene load_scene_of(const MotionReader& motion, const fs::path& file) {
 }
 
 /// Checks that the motion contains all input files of its scene. @throws UsageError if the scene names a file elsewhere
-void require_own_inputs(const MotionReader& motion, const Scene& scene, const fs::path& folder) {
-  for (const fs::path& input : scene.inputs) {
+void require_own_inputs(const MotionReader& motion, const LoadedScene& scene, const fs::path& folder) {
+  for (const fs::path& input : scene.source.inputs) {
     if (input.lexically_normal().parent_path() == folder.lexically_normal()) continue;
     throw UsageError(
         fmt::format("{}: the file's scene names a file that is not in it: {}", shown(motion.file()), shown(input)));
@@ -218,11 +218,12 @@ MotionScene::MotionScene(const MotionReader& motion) : folder_("drape-scene") {
   }
 }
 
-Scene MotionScene::load(const std::vector<std::string>& overrides) const {
+LoadedScene MotionScene::load(const std::vector<std::string>& overrides) const {
   return load_scene(file_, overrides, cells_of(scene_));
 }
 
-void require_same_physics(const std::string& motion, const Scene& scene, const Scene& other, const std::string& name) {
+void require_same_physics(const std::string& motion, const LoadedScene& scene, const LoadedScene& other,
+                          const std::string& name) {
   const std::string difference = physics_difference(physics_values(scene), physics_values(other), name);
   if (difference.empty()) return;
   throw UsageError(

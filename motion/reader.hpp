@@ -81,20 +81,21 @@ class MotionScene {
   explicit MotionScene(const MotionReader& motion);
 
   /// Returns the scene as it was when the motion was computed.
-  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const LoadedScene& scene() const { return scene_; }
   /// Loads the scene with overrides, see load_scene().
-  [[nodiscard]] Scene load(const std::vector<std::string>& overrides) const;
+  [[nodiscard]] LoadedScene load(const std::vector<std::string>& overrides) const;
 
  private:
   TemporaryFolder folder_;
   std::filesystem::path file_;
-  Scene scene_;
+  LoadedScene scene_;
 };
 
 /// Checks that two scenes have the same physics.
 /// @param name name of the source of `other`
 /// @throws UsageError that lists the keys that differ
-void require_same_physics(const std::string& motion, const Scene& scene, const Scene& other, const std::string& name);
+void require_same_physics(const std::string& motion, const LoadedScene& scene, const LoadedScene& other,
+                          const std::string& name);
 
 /// Data to resume a motion whose run ended early.
 struct ResumePoint {

@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 31;  // limit of a scene's file
 
-MotionHeader complete(MotionHeader header, const Scene& scene) {
+MotionHeader complete(MotionHeader header, const LoadedScene& scene) {
   const Cloth& cloth = scene.simulation.cloth;
   header.program = this_program();
   header.name = as_name_in_folder(scene.name);
-  header.scene = scene.portable.text;
-  for (const PortableScene::File& file : scene.portable.files) header.files.push_back(file.name);
+  header.scene = scene.source.portable.text;
+  for (const PortableScene::File& file : scene.source.portable.files) header.files.push_back(file.name);
   header.physics = physics_hash(physics_values(scene));
   header.step = scene.simulation.step;
   header.vertices = cloth.vertex_count();
@@ -60,13 +60,13 @@ void require_not_growing(const fs::path& file) {
       shown(growing), shown(file)));
 }
 
-MotionFileWriter::MotionFileWriter(fs::path file, MotionHeader header, const Scene& scene)
+MotionFileWriter::MotionFileWriter(fs::path file, MotionHeader header, const LoadedScene& scene)
     : file_(std::move(file)),
-      blocks_(free_growing_name(file_, scene.portable), motion_magic),
+      blocks_(free_growing_name(file_, scene.source.portable), motion_magic),
       header_(complete(std::move(header), scene)),
       codec_(header_.vertices, header_.step) {
   blocks_.add(header_tag, pack_header(header_));
-  for (const PortableScene::File& input : scene.portable.files) {
+  for (const PortableScene::File& input : scene.source.portable.files) {
     blocks_.add(file_tag, pack(read_file(input.place, most_bytes)));
   }
   blocks_.add(mesh_tag, pack_surface(scene.simulation.cloth.triangles, scene.uvs));

@@ -33,7 +33,7 @@ class MotionFileWriter {
   /// @param header without the fields that follow from the scene
   /// @throws UsageError  if a growing file of that name exists
   /// @throws OutputError if it cannot be written
-  MotionFileWriter(std::filesystem::path file, MotionHeader header, const Scene& scene);
+  MotionFileWriter(std::filesystem::path file, MotionHeader header, const LoadedScene& scene);
   /// Resumes a file. @throws as above
   MotionFileWriter(std::filesystem::path file, const ResumePoint& from);
 

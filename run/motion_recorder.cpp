@@ -18,7 +18,7 @@ bool is_near_frame(const FilmExtent& extent, std::int64_t step) {
          std::ceil((time + reach) / extent.seconds_per_frame) - 1;
 }
 
-MotionFileWriter make_writer(const MotionOptions& options, const ResumePoint* from, const Scene& scene,
+MotionFileWriter make_writer(const MotionOptions& options, const ResumePoint* from, const LoadedScene& scene,
                              const FilmExtent& extent) {
   if (from != nullptr) return MotionFileWriter(options.path, *from);
   const MotionHeader header{.steps = extent.steps,
@@ -29,7 +29,7 @@ MotionFileWriter make_writer(const MotionOptions& options, const ResumePoint* fr
 
 }  // namespace
 
-MotionRecorder::MotionRecorder(const MotionOptions& options, const ResumePoint* from, const Scene& scene,
+MotionRecorder::MotionRecorder(const MotionOptions& options, const ResumePoint* from, const LoadedScene& scene,
                                const FilmExtent& extent, const Statistics& statistics, std::function<void()> given_up)
     : options_(options),
       extent_(extent),

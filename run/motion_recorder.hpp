@@ -37,8 +37,8 @@ class MotionRecorder final : public StepObserver {
   /// @param statistics of the run, updated before this observer at each step
   /// @param given_up   called, from any thread, when the file cannot be written
   /// @throws UsageError, OutputError as MotionFileWriter
-  MotionRecorder(const MotionOptions& options, const ResumePoint* from, const Scene& scene, const FilmExtent& extent,
-                 const Statistics& statistics, std::function<void()> given_up);
+  MotionRecorder(const MotionOptions& options, const ResumePoint* from, const LoadedScene& scene,
+                 const FilmExtent& extent, const Statistics& statistics, std::function<void()> given_up);
   ~MotionRecorder() override;
 
   void begin(const Simulation& simulation) override;

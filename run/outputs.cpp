@@ -27,9 +27,10 @@ const Rgb total_color{0, 0, 0}, kinetic_color{0.835, 0.369, 0}, gravity_color{0,
 int band_text_size(const Scene& scene) { return std::max(11, text_size(scene.video.size.y()) * 5 / 6); }
 
 /// Calls work() and prefixes its error messages with the caption's place in the scene.
-auto attributed(const Scene& scene, const auto& work) {
+auto attributed(const SceneSource& source, const auto& work) {
   const auto placed = [&](const Error& error) {
-    return fmt::format("{}: {}", scene.caption_place.empty() ? shown(scene.file) : scene.caption_place, error.what());
+    return fmt::format("{}: {}", source.caption_place.empty() ? shown(source.file) : source.caption_place,
+                       error.what());
   };
   try {
     return work();
@@ -67,7 +68,8 @@ void append(Image& picture, const Image& band) {
 
 }  // namespace
 
-Annotations::Annotations(const Scene& scene) : scene_(scene), pen_(attributed(scene, [] { return Pen(); })) {
+Annotations::Annotations(const LoadedScene& scene)
+    : scene_(scene), pen_(attributed(scene.source, [] { return Pen(); })) {
   const Look& look = scene.look;
   if (look.color_by) coloring_.emplace(*look.color_by, look.color_limit, scene.simulation.cloth);
   if (scene.overlay.energies) {
@@ -76,7 +78,7 @@ Annotations::Annotations(const Scene& scene) : scene_(scene), pen_(attributed(sc
                  {"gravity", gravity_color, {}},
                  {"elastic", elastic_color, {}}};
   }
-  attributed(scene, [&] { require_caption(pen_, scene); });
+  attributed(scene.source, [&] { require_caption(pen_, scene); });
 }
 
 bool Annotations::wanted(const Scene& scene) {
@@ -203,7 +205,7 @@ void require_outputs(const Scene& scene, const RunOptions& options) {
   if (options.motion) require_motion_file(*options.motion, motion_space(scene, options), options.from != nullptr);
 }
 
-void require_texture(const Scene& scene, int largest) {
+void require_texture(const LoadedScene& scene, int largest) {
   const auto require = [&](const std::filesystem::path& texture, const std::string& place) {
     if (texture.empty()) return;
     try {
@@ -212,7 +214,7 @@ void require_texture(const Scene& scene, int largest) {
       throw UsageError(place + ": " + error.what());
     }
   };
-  require(scene.look.texture, scene.texture_location);
+  require(scene.look.texture, scene.source.texture_location);
   for (const ClothLook& cloth : scene.look.cloths) {
     if (!cloth.place.empty()) require(cloth.texture, cloth.place);
   }

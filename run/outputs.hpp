@@ -41,7 +41,7 @@ inline KnownFilm known_film(const Scene& scene, const Eigen::Vector2i& size, int
 class Annotations {
  public:
   /// @throws OutputError if no font for the text is installed
-  explicit Annotations(const Scene& scene);
+  explicit Annotations(const LoadedScene& scene);
 
   /// Returns true if the scene asks for any annotation.
   static bool wanted(const Scene& scene);
@@ -117,7 +117,7 @@ void require_outputs(const Scene& scene, const RunOptions& options);
 /// Checks the texture of a scene that is to be drawn, if it has one.
 /// @param largest the largest width and height of a texture [pixels]
 /// @throws UsageError that names the place in the scene
-void require_texture(const Scene& scene, int largest = largest_texture);
+void require_texture(const LoadedScene& scene, int largest = largest_texture);
 
 /// A frame on its way to the outputs.
 struct FilmFrame {

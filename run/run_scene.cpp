@@ -131,7 +131,7 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 /// The three threads of a run and the queues between them.
 class Pipeline {
  public:
-  Pipeline(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress)
+  Pipeline(const LoadedScene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress)
       : scene_(scene),
         options_(options),
         progress_(progress),
@@ -416,7 +416,8 @@ class Pipeline {
 
 }  // namespace
 
-RunResult run_scene(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress) {
+RunResult run_scene(const LoadedScene& scene, const RunOptions& options, const std::stop_token& stop,
+                    Progress& progress) {
   try {
     return Pipeline(scene, options, stop, progress).run();
   } catch (const Interrupted&) {

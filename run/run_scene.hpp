@@ -136,7 +136,8 @@ inline RunResult interrupted_at_once(std::int64_t steps_wanted) {
 /// written. A stop takes effect within steps and during setup, see Stop. A failed output or record does not stop the
 /// others.
 /// @throws Error from any of the threads, or if every output failed; no file is left then
-RunResult run_scene(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress);
+RunResult run_scene(const LoadedScene& scene, const RunOptions& options, const std::stop_token& stop,
+                    Progress& progress);
 
 /// The disk space that a run's motion file will need, and the free space [bytes].
 struct MotionSpace {

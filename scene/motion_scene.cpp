@@ -133,15 +133,15 @@ std::optional<SceneOfMotion> load_scene_of_motion(const fs::path& file, const st
     throw UsageError(problems.count() == 0 ? error.what() : problems.text() + "\n" + error.what());
   }
   problems.throw_if_any();
-  scene.look.inputs.push_back(file);
-  if (fs::exists(scene.named.motion)) scene.look.inputs.emplace_back(scene.named.motion);
-  scene.look.digest = own_digest;
+  scene.look.source.inputs.push_back(file);
+  if (fs::exists(scene.named.motion)) scene.look.source.inputs.emplace_back(scene.named.motion);
+  scene.look.source.digest = own_digest;
   return scene;
 }
 
 std::string digest_of_file(const fs::path& file) {
   const std::optional<SceneOfMotion> scene = load_scene_of_motion(file);
-  return scene ? scene->look.digest : load_scene(file).digest;
+  return scene ? scene->look.source.digest : load_scene(file).source.digest;
 }
 
 }  // namespace drape

@@ -24,7 +24,7 @@ struct NamedMotion {
 /// captions and [check]; its cloth and physics are placeholders.
 struct SceneOfMotion {
   NamedMotion named;
-  Scene look;
+  LoadedScene look;
 };
 
 /// Reads a scene of a motion.

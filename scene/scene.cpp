@@ -271,14 +271,14 @@ std::vector<std::vector<std::string>> shared_method_overrides(const std::vector<
   return overrides;
 }
 
-Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides, Cells cells) {
-  Scene scene = make_scene(read_document(file), file, overrides, cells);
-  scene.inputs.push_back(file);
+LoadedScene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides, Cells cells) {
+  LoadedScene scene = make_scene(read_document(file), file, overrides, cells);
+  scene.source.inputs.push_back(file);
   return scene;
 }
 
-Scene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                 Cells cells) {
+LoadedScene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                       Cells cells) {
   std::erase_if(document.as<TomlTable>()->entries, [](const TomlEntry& entry) { return entry.name == "sweep"; });
   Problems problems(file, overrides);
   apply_overrides(document, overrides, problems);
@@ -292,8 +292,9 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   const bool draft = cells == Cells::of_quality ? says_draft(document) : cells == Cells::of_draft;
   if (draft) coarsen_grid(document);
 
-  Scene scene;
-  scene.file = file;
+  LoadedScene scene;
+  SceneSource& source = scene.source;
+  source.file = file;
   scene.name = file.stem().string();
   const std::filesystem::path folder = file.parent_path();
 
@@ -308,23 +309,23 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   if (cloths.meshes.size() == cloths.tables.size()) {
     scene.simulation.cloth = std::move(cloths.cloth);
     scene.uvs = std::move(cloths.uvs);
-    scene.warnings = std::move(cloths.warnings);
+    source.warnings = std::move(cloths.warnings);
     reader.set_meshes(cloths.meshes);
   }
   std::vector<ReadEffect> effects = read_effects(document, reader, problems);
-  scene.inputs = reader.files();
-  scene.inputs.insert(scene.inputs.end(), cloths.inputs.begin(), cloths.inputs.end());
+  source.inputs = reader.files();
+  source.inputs.insert(source.inputs.end(), cloths.inputs.begin(), cloths.inputs.end());
   if (const TomlValue* look = find_path(document, "look")) {
-    scene.texture_location = problems.text(place_of(*look, "texture"));
+    source.texture_location = problems.text(place_of(*look, "texture"));
     if (!scene.look.texture.empty() && find_path(*look, "color") != nullptr) {
-      scene.warnings.push_back(problems.text(place_of(*look, "color")) +
-                               ": color: it is not seen, because the texture covers the cloth: omit one of the two");
+      source.warnings.push_back(problems.text(place_of(*look, "color")) +
+                                ": color: it is not seen, because the texture covers the cloth: omit one of the two");
     }
   }
 
   scene.look.cloths = cloth_looks(cloths, scene.simulation.cloth, document, problems, scene.look);
   if (cloths.tables.size() == 1 && !cloths.tables.front().texture.empty()) {
-    scene.texture_location = problems.text(place_of(*find_path(document, "cloth"), "texture"));
+    source.texture_location = problems.text(place_of(*find_path(document, "cloth"), "texture"));
   }
 
   for (const ReadEffect& read : effects) scene.simulation.effects.add(along_warp(read, cloths, problems));
@@ -334,12 +335,12 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   });
 
   const auto list_fields = [&] {
-    scene.fields = scene_fields(scene.name, written_tables(cloths, scene, effects, document));
+    source.fields = scene_fields(scene.name, written_tables(cloths, scene, effects, document));
     const TomlValue* caption = find_path(document, "caption");
     if (caption == nullptr) return;
     const Place place = place_of(*caption, "text");
-    scene.caption.filled = fill_caption(scene.caption.text, scene.fields, place, problems);
-    scene.caption_place = problems.text(place);
+    scene.caption.filled = fill_caption(scene.caption.text, source.fields, place, problems);
+    source.caption_place = problems.text(place);
   };
   list_fields();
 
@@ -374,13 +375,13 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   }
   if (keys_good) problems.throw_if_any<SceneConflict>();
   problems.throw_if_any();
-  scene.digest = digest(document, tables_that_affect(TableType::Affects::nothing));
+  source.digest = digest(document, tables_that_affect(TableType::Affects::nothing));
   if (scene.simulation.integrator.method == Method::automatic) {
     name_method(scene, document, problems);
     list_fields();
   }
-  scene.tables = physics_of_tables(written_tables(cloths, scene, effects, document), folder);
-  scene.portable = make_portable(document, folder, scene.inputs);
+  source.tables = physics_of_tables(written_tables(cloths, scene, effects, document), folder);
+  source.portable = make_portable(document, folder, source.inputs);
   checks.stability();
   problems.throw_if_any<SceneConflict>();
   return scene;

@@ -113,7 +113,7 @@ std::vector<SceneValue> physics_of_tables(const std::vector<WrittenTable>& table
   return values;
 }
 
-std::vector<SceneValue> physics_values(const Scene& scene) {
+std::vector<SceneValue> physics_values(const LoadedScene& scene) {
   const Cloth& cloth = scene.simulation.cloth;
   std::vector<SceneValue> values{
       {"cloth.mesh", fmt::format("{} vertices ({}), {} triangles ({})", cloth.vertex_count(),
@@ -129,7 +129,7 @@ std::vector<SceneValue> physics_values(const Scene& scene) {
   for (std::size_t k = 0; k < cloth.seams.size(); ++k) {
     values.push_back({fmt::format("seam.{}", k), seam_text(cloth.seams[k])});
   }
-  values.insert(values.end(), scene.tables.begin(), scene.tables.end());
+  values.insert(values.end(), scene.source.tables.begin(), scene.source.tables.end());
   return values;
 }
 

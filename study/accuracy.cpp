@@ -201,7 +201,7 @@ class SceneStudy {
     return true;
   }
 
-  Scene scene_;
+  LoadedScene scene_;
   SceneAccuracy result_;
   AccuracyCases cases_;
   std::vector<std::int64_t> film_steps_;
@@ -279,7 +279,7 @@ std::string names_of(const AccuracyParts& parts) {
   return names;
 }
 
-AccuracyOptions complete(AccuracyOptions options, const Scene& scene) {
+AccuracyOptions complete(AccuracyOptions options, const LoadedScene& scene) {
   const double h = scene.simulation.step, duration = scene.duration;
   if (options.methods.empty()) {
     options.methods = {Method::implicit,
@@ -298,7 +298,7 @@ AccuracyOptions complete(AccuracyOptions options, const Scene& scene) {
     const std::int64_t steps = steps_until(time, h);
     if (steps < 1 || steps > scene.step_count()) {
       throw UsageError(fmt::format("--times: {:g} s is beyond the motion of {}, which lasts {:g} s", time,
-                                   shown(scene.file), duration));
+                                   shown(scene.source.file), duration));
     }
     time = static_cast<double>(steps) * h;
   }
@@ -312,7 +312,7 @@ AccuracyOptions complete(AccuracyOptions options, const Scene& scene) {
     const double count = options.times.front() / step;
     if (!(count >= 1 - shortest_part) || std::abs(count - std::round(count)) > shortest_part * count) {
       throw UsageError(fmt::format("--steps: {:g} s does not divide {:g} s, the first of --times, in {}", step,
-                                   options.times.front(), shown(scene.file)));
+                                   options.times.front(), shown(scene.source.file)));
     }
   }
   return options;
@@ -414,7 +414,7 @@ void add_asked_case(AccuracyCases& cases, const Scene& scene, const std::string&
 
 }  // namespace
 
-void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOptions& options,
+void leave_out_methods(const LoadedScene& scene, const std::string& file, AccuracyOptions& options,
                        std::vector<std::string>& notes) {
   const std::vector<StepMethod> given = options.methods;
   std::erase_if(options.methods, [&](StepMethod method) {
@@ -425,7 +425,7 @@ void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOpti
       return false;
     } catch (const UsageError& error) {
       notes.push_back(
-          fmt::format("{} cannot compute {}: {}", step_method_name(method), shown(scene.file), error.what()));
+          fmt::format("{} cannot compute {}: {}", step_method_name(method), shown(scene.source.file), error.what()));
       return true;
     }
   });

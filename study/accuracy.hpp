@@ -153,7 +153,7 @@ inline std::int64_t steps_until(double time, double h) { return std::llround(tim
 
 /// Fills empty options with the scene's defaults, and rounds times to whole steps.
 /// @throws UsageError if a time is outside the motion, or the first time is no multiple of a step
-AccuracyOptions complete(AccuracyOptions options, const Scene& scene);
+AccuracyOptions complete(AccuracyOptions options, const LoadedScene& scene);
 
 /// Checks that study_accuracy() can run every case of the scene, which it would otherwise find out after hours.
 /// @throws UsageError
@@ -187,7 +187,7 @@ struct AccuracyCases {
 
 /// Removes methods that cannot compute the scene with any step, unless no method would remain.
 /// @param notes gets a sentence about each removed method
-void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOptions& options,
+void leave_out_methods(const LoadedScene& scene, const std::string& file, AccuracyOptions& options,
                        std::vector<std::string>& notes);
 
 /// Returns the cases to measure in a scene.

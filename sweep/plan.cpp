@@ -121,7 +121,7 @@ class TrialFolder {
 };
 
 /// Checks the outputs of a run. @throws Error
-void require_run(const Scene& scene, const RunOptions& options, int largest_texture) {
+void require_run(const LoadedScene& scene, const RunOptions& options, int largest_texture) {
   film_extent(scene, options);
   if (!needs_drawing(options)) return;
   const Outputs films(options.outputs, film_info(scene, options));
@@ -170,13 +170,13 @@ std::string program_text() {
   return text;
 }
 
-std::string run_key(const Scene& scene, const SweepRequest& request, const std::string& program) {
+std::string run_key(const LoadedScene& scene, const SweepRequest& request, const std::string& program) {
   constexpr std::size_t most_bytes = std::size_t{1} << 31;
   Hash hash;
-  hash.add(program + "\n" + scene.portable.text);
+  hash.add(program + "\n" + scene.source.portable.text);
   // A caption may contain the scene's name.
   if (!request.films.empty()) hash.add(scene.name);
-  for (const PortableScene::File& file : scene.portable.files) {
+  for (const PortableScene::File& file : scene.source.portable.files) {
     if (std::filesystem::is_regular_file(file.place)) hash.add(read_file(file.place, most_bytes));
   }
   hash.add(fmt::format("\n{}, motion {}, steps {}, backend {}", fmt::join(request.films, " "), request.motion,
@@ -184,7 +184,7 @@ std::string run_key(const Scene& scene, const SweepRequest& request, const std::
   return hash.text();
 }
 
-std::string run_key(const Scene& scene, const SweepPlan& plan) {
+std::string run_key(const LoadedScene& scene, const SweepPlan& plan) {
   std::string key = run_key(scene, plan.request, plan.program);
   if (!plan.side || !chooses_side(plan.request, scene.camera)) return key;
   return key_seen_from(key, plan.runs[*plan.side].key);
@@ -203,7 +203,7 @@ SweepPlan make_plan(const SweepRequest& request) {
   const auto resolve = [&](std::size_t index) {
     PlannedRun& run = plan.runs[index];
     try {
-      const Scene scene = load_scene(request.scenes[run.scene], overrides_of(plan, run));
+      const LoadedScene scene = load_scene(request.scenes[run.scene], overrides_of(plan, run));
       require_run(scene, options, largest_texture);
       run.key = run_key(scene, plan);
       if (!plan.side && chooses_side(request, scene.camera)) plan.side = index;

@@ -48,9 +48,9 @@ std::string run_command(const SweepPlan& plan, const PlannedRun& run);
 std::string program_text();
 
 /// Returns the hash of a scene and the request, independent of the other runs.
-std::string run_key(const Scene& scene, const SweepRequest& request, const std::string& program);
+std::string run_key(const LoadedScene& scene, const SweepRequest& request, const std::string& program);
 /// Returns the key of a run; the earlier runs of the plan must have theirs.
-std::string run_key(const Scene& scene, const SweepPlan& plan);
+std::string run_key(const LoadedScene& scene, const SweepPlan& plan);
 
 /// Resolves every run's scene and finds all errors before the first run: unknown keys, values out of range, impossible
 /// films. A conflict of valid values, such as a step too long for the method, refuses only that run. It is an error if

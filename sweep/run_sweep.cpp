@@ -136,10 +136,10 @@ class Sweep {
   [[nodiscard]] std::optional<RunRecord> compute(const PlannedRun& run, const std::filesystem::path& folder,
                                                  std::string& stats) {
     try {
-      Scene scene = load_scene(plan_.request.scenes[run.scene], overrides_of(plan_, run));
+      LoadedScene scene = load_scene(plan_.request.scenes[run.scene], overrides_of(plan_, run));
       if (run_key(scene, plan_) != run.key) {
-        throw UsageError(
-            fmt::format("{}: it, or a file that it names, has changed since the sweep began", shown(scene.file)));
+        throw UsageError(fmt::format("{}: it, or a file that it names, has changed since the sweep began",
+                                     shown(scene.source.file)));
       }
       if (chooses_side(plan_.request, scene.camera)) look_from(side(), scene.camera);
       Progress unseen;

@@ -427,10 +427,10 @@ void audit_recording(MotionReader& motion, const System& system, std::int64_t st
 
 }  // namespace
 
-AuditReport audit_motion(const Scene& scene, const std::shared_ptr<MotionReader>& recorded, const AuditOptions& options,
-                         const std::stop_token& stop, Progress& progress) {
+AuditReport audit_motion(const LoadedScene& scene, const std::shared_ptr<MotionReader>& recorded,
+                         const AuditOptions& options, const std::stop_token& stop, Progress& progress) {
   const System system = make_system(scene.simulation);
-  const std::string file = shown(scene.file);
+  const std::string file = shown(scene.source.file);
   try {
     const bool imported = recorded && recorded->header().imported;
     AuditReport report{

@@ -55,8 +55,8 @@ struct AuditReport {
 /// Audits each state of a scene's motion, simulated or recorded.
 /// @param recorded the motion, if it is in a file; null: simulate it
 /// @throws UsageError if a state is non-finite or has invalid vertices
-AuditReport audit_motion(const Scene& scene, const std::shared_ptr<MotionReader>& recorded, const AuditOptions& options,
-                         const std::stop_token& stop, Progress& progress);
+AuditReport audit_motion(const LoadedScene& scene, const std::shared_ptr<MotionReader>& recorded,
+                         const AuditOptions& options, const std::stop_token& stop, Progress& progress);
 
 /// Returns the name of a check for a table: "triangles that cross".
 std::string check_name(audit::Check check);

@@ -96,9 +96,9 @@ void WatchSession::run(const std::stop_token& stop) {
 
 void WatchSession::draw(const std::stop_token& stop) {
   const auto begin = Clock::now();
-  const Scene scene = load_scene(file_, overrides_);
+  const LoadedScene scene = load_scene(file_, overrides_);
   const double load = seconds_since(begin);
-  inputs_ = scene.inputs;
+  inputs_ = scene.source.inputs;
   stamps_.follow(inputs_);
 
   const TemporaryFolder folder("drape-watch");
@@ -120,7 +120,7 @@ void WatchSession::draw(const std::stop_token& stop) {
   publish([&](WatchedFilm& film) {
     film.errors = result.problems;
     if (!result.divergence.empty()) film.errors.push_back(file_.string() + ": " + result.divergence);
-    film.hints = scene.warnings;
+    film.hints = scene.source.warnings;
     film.summary = describe_(scene, options);
     if (!bytes.empty()) {
       film.film = std::move(bytes);

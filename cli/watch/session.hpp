@@ -54,7 +54,7 @@ struct WatchedFilm {
 class WatchSession {
  public:
   /// A function that describes a scene in one line.
-  using Describe = std::function<std::string(const Scene&, const RunOptions&)>;
+  using Describe = std::function<std::string(const LoadedScene&, const RunOptions&)>;
 
   /// @param overrides as for load_scene()
   WatchSession(std::filesystem::path file, std::vector<std::string> overrides, GlBackend backend, Describe describe);

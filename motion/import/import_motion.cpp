@@ -252,7 +252,7 @@ class ImportedScene {
   }
 
   [[nodiscard]] int bodies() const { return bodies_; }
-  [[nodiscard]] Scene load() const {
+  [[nodiscard]] LoadedScene load() const {
     const fs::path file = folder_ / "imported.toml";
     write_file_atomically(file, text_);
     return load_scene(file);
@@ -316,7 +316,7 @@ class VelocityEstimator {
   std::size_t index_ = 0;  // of after_
 };
 
-std::uint64_t write(const fs::path& file, const Scene& scene, MotionSource& cloth, const TimeGrid& grid,
+std::uint64_t write(const fs::path& file, const LoadedScene& scene, MotionSource& cloth, const TimeGrid& grid,
                     const std::stop_token& stop, Progress& progress) {
   const System system = make_system(scene.simulation);
   const std::int64_t last = grid.steps.back();
@@ -361,7 +361,7 @@ std::unique_ptr<MotionSource> open_upright(const std::string& file, const std::s
 }
 
 /// Loads the scene; problems name the cloth's file.
-Scene load_scene_of(const ImportedScene& text, const MotionSource& cloth, const fs::path& folder) {
+LoadedScene load_scene_of(const ImportedScene& text, const MotionSource& cloth, const fs::path& folder) {
   try {
     return text.load();
   } catch (const UsageError& error) {
@@ -390,7 +390,7 @@ ImportedMotion import_motion(const ImportOptions& options, const fs::path& file,
   for (const std::string& body : options.bodies) {
     text.add_body(*open_upright(body, {}, {}, options.axes));
   }
-  Scene scene = load_scene_of(text, *cloth, folder.path());
+  LoadedScene scene = load_scene_of(text, *cloth, folder.path());
   scene.name = file.stem().string();
   progress.begin("importing", "frames", static_cast<std::int64_t>(cloth->count()));
   ImportedMotion result{.frames = static_cast<std::int64_t>(cloth->count()),

@@ -10,7 +10,7 @@
 namespace drape::test {
 namespace {
 
-Scene pile() {
+LoadedScene pile() {
   return load_scene(DRAPE_SOURCE_DIR "/scenes/showcase/self_collision.toml", {"cloth.mesh={grid=[20,20]}"});
 }
 

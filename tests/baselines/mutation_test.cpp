@@ -30,7 +30,7 @@ struct Subject {
   fs::path folder;
   std::string file = "5.toml";
   std::vector<std::string> overrides;
-  std::vector<std::function<void(Scene&)>> edits;  // of the loaded scene
+  std::vector<std::function<void(LoadedScene&)>> edits;  // of the loaded scene
 
   [[nodiscard]] fs::path golden() const { return golden_folder(folder / file); }
 };
@@ -50,12 +50,12 @@ Apply set(const char* override_text) {
   return [=](Subject& subject) { subject.overrides.emplace_back(override_text); };
 }
 
-Apply edit(const std::function<void(Scene&)>& change) {
+Apply edit(const std::function<void(LoadedScene&)>& change) {
   return [=](Subject& subject) { subject.edits.push_back(change); };
 }
 
 Apply cloth(const std::function<void(Cloth&)>& change) {
-  return edit([=](Scene& scene) { change(scene.simulation.cloth); });
+  return edit([=](LoadedScene& scene) { change(scene.simulation.cloth); });
 }
 
 /// Applies a change to the scene with a texture.
@@ -100,8 +100,8 @@ Apply golden_picture_of(const std::function<void(cv::Mat&)>& change) {
 }
 
 /// Moves the camera sideways so that the middle of the picture moves by some pixels.
-void shift_camera(Scene& scene, double pixels) {
-  const Golden golden = read_golden(golden_folder(scene.file));
+void shift_camera(LoadedScene& scene, double pixels) {
+  const Golden golden = read_golden(golden_folder(scene.source.file));
   const View view = golden.frames.front().view;
   const double distance = (view.position - view.target).norm();
   const double height = 2 * distance * std::tan(view.field_of_view / 2 * std::numbers::pi / 180);
@@ -112,15 +112,15 @@ void shift_camera(Scene& scene, double pixels) {
 }
 
 /// Turns the camera about the vertical axis through its target.
-void turn_camera(Scene& scene, double degrees) {
-  const View view = read_golden(golden_folder(scene.file)).frames.front().view;
+void turn_camera(LoadedScene& scene, double degrees) {
+  const View view = read_golden(golden_folder(scene.source.file)).frames.front().view;
   const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, Eigen::Vector3d::UnitZ());
   scene.camera.position = view.target + turn * (view.position - view.target);
   scene.camera.target = view.target;
   scene.camera.up = view.up;
 }
 
-void swap_texture_axes(Scene& scene) {
+void swap_texture_axes(LoadedScene& scene) {
   for (auto& uv : scene.uvs) std::swap(uv[0], uv[1]);
 }
 
@@ -135,17 +135,18 @@ const std::vector<Mutation> mutations{
      same_bits, altered},
     {"ADotOfFourByFourPixels",
      golden_picture_of([](cv::Mat& p) { p(cv::Rect(200, 40, 4, 4)) = cv::Scalar(200, 200, 200); }), same_bits, altered},
-    {"APictureShiftedByATenthOfAPixel", edit([](Scene& scene) { shift_camera(scene, 0.1); }), same_bits, altered},
-    {"TheCameraTurnedByAFiftiethOfADegree", edit([](Scene& scene) { turn_camera(scene, 0.02); }), same_bits, altered},
+    {"APictureShiftedByATenthOfAPixel", edit([](LoadedScene& scene) { shift_camera(scene, 0.1); }), same_bits, altered},
+    {"TheCameraTurnedByAFiftiethOfADegree", edit([](LoadedScene& scene) { turn_camera(scene, 0.02); }), same_bits,
+     altered},
     {"AMarginOneThousandthWider", set("camera.margin=0.061"), same_bits, altered},
     {"AFieldOfViewOfThirtyOneDegrees", set("camera.field_of_view=31"), same_bits, altered},
     {"SwappedTextureAxes", textured(edit(swap_texture_axes)), same_bits, altered},
-    {"AMirroredTexture", textured(edit([](Scene& scene) {
+    {"AMirroredTexture", textured(edit([](LoadedScene& scene) {
        for (auto& uv : scene.uvs) uv[0] = 1 - uv[0];
      })),
      same_bits, altered},
     {"NoTexture", textured(set("look.texture=\"\"")), same_bits, altered},
-    {"OneMissingTriangle", edit([](Scene& scene) {
+    {"OneMissingTriangle", edit([](LoadedScene& scene) {
        scene.simulation.cloth.triangles.erase(scene.simulation.cloth.triangles.begin() + 210);
        scene.uvs.erase(scene.uvs.begin() + 630, scene.uvs.begin() + 633);
      }),
@@ -205,7 +206,7 @@ class MutationTest : public test::InScratchFolder {
   ~MutationTest() override { use_data_folder({}); }
 
   [[nodiscard]] SceneResult check() const {
-    Scene scene = load_scene(subject_.folder / subject_.file, subject_.overrides);
+    LoadedScene scene = load_scene(subject_.folder / subject_.file, subject_.overrides);
     for (const auto& change : subject_.edits) change(scene);
     CheckOptions options;
     options.update = UpdateMode::none;

@@ -25,11 +25,11 @@ class AnotherProgram : public test::CheckedScene {
 
 // As if the automatic camera of the time had left a wider margin than the scene requests.
 TEST_F(AnotherProgram, ThatFramedTheMotionOtherwiseIsSeen) {
-  const Scene wider = scene({"camera.margin=0.2"});
+  const LoadedScene wider = scene({"camera.margin=0.2"});
   bless_scene(wider, wider.check, GlBackend::automatic, {}, progress_);
   record_otherwise([&](Golden& golden) {
     golden.camera = scene().camera;
-    golden.scene_digest = scene().digest;
+    golden.scene_digest = scene().source.digest;
   });
   const SceneResult result = check();
   EXPECT_FALSE(result.scene_changed);

@@ -73,8 +73,8 @@ TEST_F(CheckReports, ReportsWhatCannotBeJudged) {
   put(golden() / "motion.bin", "drape motion 2\n");
   CheckReport report;
   report.date = "2026-01-31T12:00:00Z";
-  Scene odd = scene();
-  odd.file = folder_ / "sw\xE4ng\x01.toml";  // Latin-1, and a control character
+  LoadedScene odd = scene();
+  odd.source.file = folder_ / "sw\xE4ng\x01.toml";  // Latin-1, and a control character
   try {
     check();
   } catch (const UsageError& error) {

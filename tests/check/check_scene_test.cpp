@@ -163,7 +163,7 @@ TEST_F(CheckTime, IsMeasuredOverNoMoreThanTheMotion) {
 
 TEST_F(CheckScene, DrawsFromWhereAMovingCameraIsInEachFrame) {
   const std::vector<std::string> moving{"camera.follow=true", "camera.orbit=90"};
-  const Scene recorded = scene(moving);
+  const LoadedScene recorded = scene(moving);
   bless_scene(recorded, recorded.check, GlBackend::automatic, {}, progress_);
   const Golden golden_now = read_golden(golden());
   EXPECT_NE(golden_now.frames[0].view.position, golden_now.frames[1].view.position);
@@ -208,7 +208,7 @@ TEST_F(CheckScene, SeesWhatActsForAMomentOnly) {
     return std::vector<std::string>{"effects.moving_pins.pins=[0]", "effects.moving_pins.release=" + release,
                                     "effects.moving_pins.keyframes=[{ time = 0.5, offset = [0, 0, " + offset + "] }]"};
   };
-  const Scene recorded = scene(with_pins("1.5", "0.1"));
+  const LoadedScene recorded = scene(with_pins("1.5", "0.1"));
   bless_scene(recorded, recorded.check, GlBackend::automatic, {}, progress_);
   EXPECT_EQ(check(with_pins("1.5", "0.1")).windows.motion, MotionVerdict::same_bits);
   EXPECT_EQ(check(with_pins("1.5", "0.10001")).windows.motion, MotionVerdict::changed);
@@ -226,7 +226,7 @@ TEST_F(CheckScene, SeesABodyMoveThatTouchesNothing) {
   const std::string passing =
       "[{ time = 0, center = [9, 9, 9] }, { time = 0.5, center = [9, 9, 9] }, "
       "{ time = 0.55, center = [9, 9, 9.001] }, { time = 0.6, center = [9, 9, 9] }]";
-  const Scene recorded = scene(bystander(still));
+  const LoadedScene recorded = scene(bystander(still));
   bless_scene(recorded, recorded.check, GlBackend::automatic, {}, progress_);
   EXPECT_EQ(check(bystander(still)).windows.motion, MotionVerdict::same_bits);
   const SceneResult moved = check(bystander(passing));
@@ -250,7 +250,7 @@ TEST_F(CheckScene, EndToEndIsTheMotionThatWasRecorded) {
 }
 
 TEST_F(CheckScene, KeepsPinsAndConstraintsExact) {
-  const Scene limited = scene({"effects.strain_limit.max_stretch=1.05"});
+  const LoadedScene limited = scene({"effects.strain_limit.max_stretch=1.05"});
   EXPECT_EQ(quanta_for(limited.simulation, 1e-6).position, 0);
   const RoundingUnits quanta = quanta_for(scene().simulation, 1e-6);
   EXPECT_GT(quanta.position, 1e-10);
@@ -264,7 +264,7 @@ TEST_F(CheckScene, KeepsPinsAndConstraintsExact) {
 }
 
 TEST_F(CheckScene, DrawsAFrameAsTheFilmDoes) {
-  const Scene film = scene();
+  const LoadedScene film = scene();
   const auto plan = plan_recording(film, film.check, {}, progress_);
   const auto golden = record_motion(film, film.check, *plan, {}, progress_);
   ASSERT_TRUE(golden.has_value());
@@ -304,7 +304,7 @@ TEST_F(CheckScene, RefusesAPictureThatSomebodyChanged) {
 
 TEST_F(CheckScene, NamesTheStepTheVertexAndTheDistance) {
   bless();
-  Scene changed = scene();
+  LoadedScene changed = scene();
   changed.simulation.cloth.positions(20, 2) += 3e-3;
   const SceneResult result = check_read(changed);
   ASSERT_EQ(result.verdict, SceneVerdict::changed);
@@ -322,7 +322,7 @@ TEST_F(CheckScene, NamesTheStepTheVertexAndTheDistance) {
 
 TEST_F(CheckScene, ToleratesWhatRoundingDoes) {
   bless();
-  Scene shaken = scene();
+  LoadedScene shaken = scene();
   for (Spring& spring : shaken.simulation.cloth.springs) spring.rest_length *= 1 + 1e-15;
   const SceneResult result = check_read(shaken);
   EXPECT_EQ(result.verdict, SceneVerdict::passed);

@@ -30,12 +30,12 @@ class CheckedScene : public InScratchFolder {
  protected:
   CheckedScene() { put(folder_ / "swing.toml", small_swing); }
 
-  [[nodiscard]] Scene scene(const std::vector<std::string>& overrides = {}) const {
+  [[nodiscard]] LoadedScene scene(const std::vector<std::string>& overrides = {}) const {
     return load_scene(folder_ / "swing.toml", overrides);
   }
   void bless() { bless_scene(scene(), scene().check, GlBackend::automatic, {}, progress_); }
 
-  SceneResult check_read(const Scene& of, const CheckOptions& options = {.update = UpdateMode::none}) {
+  SceneResult check_read(const LoadedScene& of, const CheckOptions& options = {.update = UpdateMode::none}) {
     return check_scene(of, of.name, of.check, options, {}, progress_);
   }
   SceneResult check(const std::vector<std::string>& overrides = {},

@@ -69,7 +69,7 @@ TEST(SceneCloths, AreJoinedInOrder) {
 TEST(SceneCloths, OneInDoubleBracketsIsTheSameAsOneInSingle) {
   const SceneFolder folder;
   const std::string rest = "mesh = { grid = [4, 3] }\nstiffness = 9\npins = [0, 4]\n";
-  const Scene single = folder.load("[cloth]\n" + rest), in_array = folder.load("[[cloth]]\n" + rest);
+  const LoadedScene single = folder.load("[cloth]\n" + rest), in_array = folder.load("[[cloth]]\n" + rest);
   EXPECT_EQ(physics_hash(physics_values(single)), physics_hash(physics_values(in_array)));
   EXPECT_TRUE(single.simulation.cloth.pieces.empty());
 }
@@ -89,10 +89,10 @@ TEST(SceneCloths, AreSetAndCaptionedByName) {
 
 TEST(SceneCloths, ThePortableSceneIsTheSame) {
   const SceneFolder folder;
-  const Scene scene =
+  const LoadedScene scene =
       folder.load(sewn("a = { cloth = \"a\", along = [\"edge:x+\"] }\n"
                        "b = { cloth = \"b\", along = [\"edge:x-\"] }\ntime = 0.5"));
-  const Scene again = folder.load(scene.portable.text);
+  const LoadedScene again = folder.load(scene.source.portable.text);
   EXPECT_EQ(physics_hash(physics_values(scene)), physics_hash(physics_values(again)));
   EXPECT_EQ(again.simulation.cloth.seams.size(), 1U);
 }

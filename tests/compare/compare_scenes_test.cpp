@@ -19,7 +19,7 @@ namespace {
 const std::string film = test::swinging_cloth + "[video]\nsize = [120, 100]\n";
 const std::string swinging = film + "[camera]\nposition = [3, -4, 3]\ntarget = [0, 0, -0.5]\n";
 
-CompareResult compare(const std::vector<Scene>& scenes, const CompareOptions& options) {
+CompareResult compare(const std::vector<LoadedScene>& scenes, const CompareOptions& options) {
   require_comparison(scenes, options);
   Progress progress;
   return compare_scenes(scenes, options, {}, progress);
@@ -40,13 +40,13 @@ bool contains(const cv::Mat& whole, const cv::Mat& part) {
 
 TEST(CompareScenes, ShowsEachMotionAsItsOwnFilmWould) {
   const test::SceneFolder folder;
-  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.stiffness=5"})};
+  const std::vector<LoadedScene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.stiffness=5"})};
   CompareOptions options;
   options.outputs = {folder.path("both.png")};
   const CompareResult result = compare(scenes, options);
   EXPECT_EQ(result.times.size(), 6U);
   const cv::Mat both = test::read_picture(options.outputs[0]);
-  for (const Scene& scene : scenes) {
+  for (const LoadedScene& scene : scenes) {
     RunOptions run;
     run.outputs = {folder.path("one.png")};
     Progress progress;
@@ -60,7 +60,7 @@ TEST(CompareScenes, ShowsEachMotionAsItsOwnFilmWould) {
 /// The camera chooses its direction, follows and orbits.
 TEST(CompareScenes, TheCameraMovesAsInTheFirstOnesFilm) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(film + "[camera]\nfollow = true\norbit = 90\n");
+  const LoadedScene scene = folder.load(film + "[camera]\nfollow = true\norbit = 90\n");
   CompareOptions options;
   options.outputs = {folder.path("both{frame}.png")};
   compare({scene, scene}, options);
@@ -76,7 +76,7 @@ TEST(CompareScenes, TheCameraMovesAsInTheFirstOnesFilm) {
 }
 
 /// Records a scene's motion.
-std::shared_ptr<MotionReader> recorded(const Scene& scene, const std::string& file) {
+std::shared_ptr<MotionReader> recorded(const LoadedScene& scene, const std::string& file) {
   RunOptions run;
   run.motion.emplace();
   run.motion->path = file;
@@ -87,8 +87,8 @@ std::shared_ptr<MotionReader> recorded(const Scene& scene, const std::string& fi
 
 TEST(CompareScenes, DrawsMotionsFromFilesAsTheirScenes) {
   const test::SceneFolder folder;
-  const std::vector<Scene> scenes{folder.load(film + "[look]\ncolor_by = \"speed\"\n"),
-                                  folder.load(film, {"cloth.stiffness=5", "time.duration=0.1"})};
+  const std::vector<LoadedScene> scenes{folder.load(film + "[look]\ncolor_by = \"speed\"\n"),
+                                        folder.load(film, {"cloth.stiffness=5", "time.duration=0.1"})};
   CompareOptions options;
   options.outputs = {folder.path("simulated.gif")};
   const CompareResult simulated = compare(scenes, options);
@@ -110,8 +110,9 @@ TEST(CompareScenes, DrawsMotionsFromFilesAsTheirScenes) {
 
 TEST(CompareScenes, OneCameraHasAllOfThemInView) {
   const test::SceneFolder folder;
-  const std::vector<Scene> scenes{folder.load(film, {"look.background=white"}),
-                                  folder.load(film, {"look.background=white", "cloth.transform.translate=[4, 0, 0]"})};
+  const std::vector<LoadedScene> scenes{
+      folder.load(film, {"look.background=white"}),
+      folder.load(film, {"look.background=white", "cloth.transform.translate=[4, 0, 0]"})};
   CompareOptions options;
   options.outputs = {folder.path("both.png")};
   options.columns = 1;
@@ -126,7 +127,7 @@ TEST(CompareScenes, OneCameraHasAllOfThemInView) {
 
 TEST(CompareScenes, AMotionThatIsOverStaysAsItWas) {
   const test::SceneFolder folder;
-  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"time.duration=0.04"})};
+  const std::vector<LoadedScene> scenes{folder.load(swinging), folder.load(swinging, {"time.duration=0.04"})};
   CompareOptions options;
   const CompareResult result = compare(scenes, options);
   EXPECT_EQ(result.times.size(), 6U);
@@ -138,8 +139,8 @@ TEST(CompareScenes, AMotionThatIsOverStaysAsItWas) {
 
 TEST(CompareScenes, TheSameMotionHasNoDistanceAndTheFirstColour) {
   const test::SceneFolder folder;
-  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"look.line_width=2"}),
-                                  folder.load(swinging, {"cloth.stiffness=5"})};
+  const std::vector<LoadedScene> scenes{folder.load(swinging), folder.load(swinging, {"look.line_width=2"}),
+                                        folder.load(swinging, {"cloth.stiffness=5"})};
   CompareOptions options;
   options.difference = true;
   const CompareResult result = compare(scenes, options);
@@ -169,7 +170,7 @@ std::vector<const Frame*> pointers(const std::vector<Frame>& frames) {
 
 TEST(CompareScenes, ColoursDistancesOverThreeDecadesBelowTheLimit) {
   const test::SceneFolder folder;
-  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging)};
+  const std::vector<LoadedScene> scenes{folder.load(swinging), folder.load(swinging)};
   const PanelColors colors(scenes, {"a", "b"}, true, 0.02);
   EXPECT_FALSE(colors.needs_motion()) << "a given limit needs no survey";
   const auto frames = moved_by(scenes[0], {0, 0.02});
@@ -189,7 +190,7 @@ TEST(CompareScenes, ColoursDistancesOverThreeDecadesBelowTheLimit) {
 // Two motions that part exponentially, one a hundred times as far as the other, both show where they differ.
 TEST(CompareScenes, FindsALimitThatShowsAllMotions) {
   const test::SceneFolder folder;
-  const std::vector<Scene> scenes(3, folder.load(swinging));
+  const std::vector<LoadedScene> scenes(3, folder.load(swinging));
   PanelColors colors(scenes, {"a", "b", "c"}, true, std::nullopt);
   EXPECT_TRUE(colors.needs_motion());
   std::vector<std::vector<Frame>> film;
@@ -212,7 +213,7 @@ TEST(CompareScenes, FindsALimitThatShowsAllMotions) {
 
 TEST(CompareScenes, RefusesWhatCannotBeCompared) {
   const test::SceneFolder folder;
-  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.mesh={ grid = [4, 4] }"})};
+  const std::vector<LoadedScene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.mesh={ grid = [4, 4] }"})};
   CompareOptions options;
   options.difference = true;
   EXPECT_NE(test::usage_error([&] { require_comparison(scenes, options); }).find("has 49 vertices and "),
@@ -228,7 +229,7 @@ TEST(CompareScenes, RefusesWhatCannotBeCompared) {
 
 TEST(CompareScenes, GivesTheSameBytesTwice) {
   const test::SceneFolder folder;
-  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.stiffness=5"})};
+  const std::vector<LoadedScene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.stiffness=5"})};
   CompareOptions options;
   options.difference = true;
   for (const char* name : {"1.gif", "2.gif"}) {
@@ -240,7 +241,7 @@ TEST(CompareScenes, GivesTheSameBytesTwice) {
 
 TEST(CompareScenes, MakesAPageThatHoldsItsPictures) {
   const test::SceneFolder folder;
-  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.stiffness=5"})};
+  const std::vector<LoadedScene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.stiffness=5"})};
   CompareOptions options;
   options.outputs = {folder.path("page.html")};
   options.command = "drape compare a b";

@@ -10,9 +10,9 @@ namespace {
 using test::least_scene;
 using Labels = std::vector<std::string>;
 
-std::vector<Scene> scenes(const test::SceneFolder& folder, const std::vector<std::vector<std::string>>& overrides,
-                          const std::string& more = "") {
-  std::vector<Scene> all;
+std::vector<LoadedScene> scenes(const test::SceneFolder& folder, const std::vector<std::vector<std::string>>& overrides,
+                                const std::string& more = "") {
+  std::vector<LoadedScene> all;
   for (const std::vector<std::string>& some : overrides) all.push_back(folder.load(least_scene + more, some));
   return all;
 }
@@ -63,10 +63,10 @@ TEST(Differences, WhatThingsLookLikeNeedsNoLabel) {
 
 TEST(Differences, FilesTellScenesOfOneNameApart) {
   const test::SceneFolder folder;
-  std::vector<Scene> all = scenes(folder, {{}, {}});
+  std::vector<LoadedScene> all = scenes(folder, {{}, {}});
   const auto labels_of = [&](const char* first, const char* second) {
-    all[0].file = first;
-    all[1].file = second;
+    all[0].source.file = first;
+    all[1].source.file = second;
     return labels(all, differences(all));
   };
   EXPECT_EQ(labels_of("scene.toml", "scene.drape"), (Labels{"scene.toml", "scene.drape"}));

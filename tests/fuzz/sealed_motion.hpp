@@ -44,9 +44,9 @@ struct SealedMotion {
   std::string complete, growing, checkpoint;
 
   explicit SealedMotion(const FuzzFolder& folder) {
-    const Scene scene = load_scene(folder.put("scene.toml",
-                                              "[cloth]\nmesh = { grid = [1, 1] }\nstiffness = 10\n[time]\nstep = "
-                                              "0.01\nduration = 0.05\n[effects.gravity]\n"));
+    const LoadedScene scene = load_scene(folder.put("scene.toml",
+                                                    "[cloth]\nmesh = { grid = [1, 1] }\nstiffness = 10\n[time]\nstep = "
+                                                    "0.01\nduration = 0.05\n[effects.gravity]\n"));
     MotionFileWriter writer(folder.path("made.drape"), {.steps = 5}, scene);
     Simulation::Checkpoint last;
     State& state = last.state;

@@ -121,7 +121,7 @@ class Interop : public ::testing::Test {
   }
 
   test::SceneFolder folder_;
-  Scene scene_;
+  LoadedScene scene_;
 };
 
 constexpr double single_precision = 6e-8;

@@ -43,7 +43,7 @@ void expect_same(const std::vector<Frame>& frames, const std::vector<Frame>& exp
 /// Stops before the camera's position is known.
 TEST(RecordedFrames, AreNotDrawnWhereThatIsInterrupted) {
   const SceneFolder folder;
-  const Scene scene = folder.load(recorded_scene);
+  const LoadedScene scene = folder.load(recorded_scene);
   record(scene, folder.path("m.drape"));
   for (const std::string camera : {"", "[camera]\nfollow = true\n"}) {
     RunOptions options;
@@ -60,7 +60,7 @@ TEST(RecordedFrames, AreNotDrawnWhereThatIsInterrupted) {
 
 TEST(RecordedFrames, AreThoseOfTheSimulation) {
   const SceneFolder folder;
-  const Scene scene = folder.load(recorded_scene);
+  const LoadedScene scene = folder.load(recorded_scene);
   record(scene, folder.path("m.drape"));
   for (const double fps : {20.0, 50.0, 7.3, 200.0}) {
     for (const std::optional<FrameRange> range : {std::optional<FrameRange>(), std::optional(FrameRange{3, 5})}) {
@@ -77,7 +77,7 @@ TEST(RecordedFrames, AreThoseOfTheSimulation) {
 TEST(RecordedFrames, AreThoseOfTheSimulationWhereOnlyWhatTheyNeedIsRecorded) {
   for (const std::string fps : {"20", "50", "7.3", "200"}) {
     const SceneFolder folder;
-    const Scene scene = folder.load(recorded_scene, {"video.fps=" + fps});
+    const LoadedScene scene = folder.load(recorded_scene, {"video.fps=" + fps});
     RunOptions options;
     options.motion = MotionOptions{.recorded = {.every = std::nullopt}};
     record(scene, folder.path("m.drape"), options);
@@ -89,7 +89,7 @@ TEST(RecordedFrames, AreThoseOfTheSimulationWhereOnlyWhatTheyNeedIsRecorded) {
 
 TEST(RecordedFrames, AreCountedWhereTheyAreMissing) {
   const SceneFolder folder;
-  const Scene scene = folder.load(recorded_scene);
+  const LoadedScene scene = folder.load(recorded_scene);
   RunOptions options;
   options.motion = MotionOptions{.recorded = {.every = 5}};
   record(scene, folder.path("m.drape"), options);
@@ -101,7 +101,7 @@ TEST(RecordedFrames, AreCountedWhereTheyAreMissing) {
 /// Pictures of a motion file, whose camera is found without another simulation.
 TEST(RecordedFrames, AreDrawnAsTheSimulationsAre) {
   const SceneFolder folder;
-  const Scene scene = folder.load(recorded_scene);
+  const LoadedScene scene = folder.load(recorded_scene);
   record(scene, folder.path("m.drape"));
   RunOptions options;
   options.outputs = {folder.path("direct.gif"), folder.path("direct.npz")};
@@ -120,7 +120,7 @@ TEST(RecordedFrames, AreDrawnAsTheSimulationsAre) {
 
 TEST(MotionSpace, IsNoLessThanWhatAFileTakes) {
   const SceneFolder folder;
-  const Scene scene = folder.load(recorded_scene, {"cloth.mesh={grid=[20,20]}", "time.duration=3"});
+  const LoadedScene scene = folder.load(recorded_scene, {"cloth.mesh={grid=[20,20]}", "time.duration=3"});
   for (const std::optional<std::int64_t> every :
        {std::optional<std::int64_t>(1), std::optional<std::int64_t>(10), std::optional<std::int64_t>()}) {
     RunOptions options;

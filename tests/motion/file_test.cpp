@@ -34,7 +34,7 @@ struct Straight final : StepObserver {
 
 TEST(MotionFile, HoldsEveryStepToTheBit) {
   const SceneFolder folder;
-  const Scene scene = folder.load(recorded_scene);
+  const LoadedScene scene = folder.load(recorded_scene);
   const RunResult result = record(scene, folder.path("m.drape"));
   ASSERT_TRUE(result.motion && result.motion->complete);
   EXPECT_EQ(result.motion->complete->size, std::filesystem::file_size(folder.path("m.drape")));
@@ -90,7 +90,7 @@ struct PieceEnergies final : StepObserver {
 
 TEST(MotionFile, HoldsTheEnergiesOfEachCloth) {
   const SceneFolder folder;
-  const Scene scene = folder.load(two_cloths);
+  const LoadedScene scene = folder.load(two_cloths);
   record(scene, folder.path("m.drape"));
   PieceEnergies expected;
   Simulation simulation(scene.simulation);
@@ -118,7 +118,7 @@ TEST(MotionFile, HoldsTheEnergiesOfEachCloth) {
 /// The records of a complete or resumed motion are those of the run, with the columns of every cloth.
 TEST(MotionFile, GivesTheRecordsOfEachCloth) {
   const SceneFolder folder;
-  const Scene scene = folder.load(two_cloths);
+  const LoadedScene scene = folder.load(two_cloths);
   RunOptions options;
   options.records.energies = folder.path("run.csv");
   options.motion.emplace();
@@ -169,7 +169,7 @@ TEST(MotionFile, CanBeReadInAnyOrder) {
 
 TEST(MotionFile, HoldsEveryNthStepAndTheLast) {
   const SceneFolder folder;
-  const Scene scene = folder.load(recorded_scene);
+  const LoadedScene scene = folder.load(recorded_scene);
   RunOptions options;
   options.motion = MotionOptions{.recorded = {.every = 20}};
   record(scene, folder.path("m.drape"), options);
@@ -196,7 +196,7 @@ TEST(MotionFile, HoldsWhatFramesNeed) {
 
 TEST(MotionFile, IsTheSameBytesEveryTime) {
   const SceneFolder folder;
-  const Scene scene = folder.load(recorded_scene);
+  const LoadedScene scene = folder.load(recorded_scene);
   record(scene, folder.path("a.drape"));
   record(scene, folder.path("b.drape"));
   EXPECT_TRUE(content(folder.path("a.drape")) == content(folder.path("b.drape")));
@@ -205,7 +205,7 @@ TEST(MotionFile, IsTheSameBytesEveryTime) {
 TEST(MotionFile, KeepsTheFilesOfItsScene) {
   const SceneFolder folder;
   folder.write("meshes/sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
-  const Scene scene = folder.load(
+  const LoadedScene scene = folder.load(
       "[cloth]\nmesh = \"meshes/sheet.obj\"\nstiffness = 10\npins = [0]\n[time]\nstep = 0.01\nduration = 0.1\n"
       "[effects.gravity]\n[look]\ntexture = \"plaid.png\"\n[check]\nframes = [1]\n",
       {"cloth.mass=2"});
@@ -276,7 +276,7 @@ TEST_F(DamagedMotion, SaysWhatItIs) {
 TEST_F(DamagedMotion, OfAnotherSceneIsRefused) {
   const SceneFolder folder;
   const std::string named = std::string(recorded_scene) + "[integrator]\nmethod = \"quasi-newton\"\n";
-  const Scene scene = folder.load(named);
+  const LoadedScene scene = folder.load(named);
   const auto error = [&](const std::vector<std::string>& overrides) {
     return usage_error([&] { require_same_physics("m.drape", scene, folder.load(named, overrides), "look.toml"); });
   };

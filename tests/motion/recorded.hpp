@@ -27,7 +27,7 @@ class StopAfter final : public StepObserver {
 
 /// Runs a scene and writes a motion file.
 /// @param stop_after step at which it stops; 0: the last
-inline RunResult record(const Scene& scene, const std::string& file, RunOptions options = {},
+inline RunResult record(const LoadedScene& scene, const std::string& file, RunOptions options = {},
                         std::int64_t stop_after = 0) {
   if (!options.motion) options.motion.emplace();
   options.motion->path = file;

@@ -58,7 +58,7 @@ TEST_P(Resumed, RunsComeToTheSameBits) {
   for (const std::string& effects : effects_of_scenes()) scenes.push_back(scene_of(GetParam(), effects));
   scenes.push_back(scene_of(GetParam(), "[effects.gravity]\n", "accuracy = 1e-5\n"));
   for (const std::string& text : scenes) {
-    const Scene scene = folder.load(text);
+    const LoadedScene scene = folder.load(text);
     record(scene, folder.path("whole.drape"));
     const int first = some_step(random), second = std::min(first + some_step(random), steps - 1);
     const RunResult begun = record(scene, folder.path("parts.drape"), {}, first);
@@ -77,7 +77,7 @@ TEST_P(Resumed, RunsComeToTheSameBits) {
 /// Records differ only in measured times.
 TEST_P(Resumed, RunsHaveRecordsOfTheWholeMotion) {
   const SceneFolder folder;
-  const Scene scene = folder.load(scene_of(GetParam(), effects_of_scenes().back()));
+  const LoadedScene scene = folder.load(scene_of(GetParam(), effects_of_scenes().back()));
   const auto with_records = [&](const std::string& name) {
     RunOptions options;
     options.records = {.stats = {},
@@ -118,7 +118,7 @@ TEST_P(Resumed, RunsHaveRecordsOfTheWholeMotion) {
 /// The energy guard resumes with its history: it reports the same step.
 TEST(ResumedRun, DivergesInTheSameStep) {
   const SceneFolder folder;
-  const Scene scene = folder.load(
+  const LoadedScene scene = folder.load(
       "[cloth]\nmesh = { grid = [6, 6] }\nstiffness = 500\npins = [0, 6]\n[time]\nstep = 0.02\nduration = "
       "4\n[integrator]\n"
       "method = \"semi-implicit\"\nallow_unstable = true\n[effects.gravity]\n[effects.air]\n");
@@ -154,7 +154,7 @@ class KilledAt final : public StepObserver {
 
 TEST(ResumedRun, BeginsAgainWhereItWasKilledBeforeTheSecondCheckpoint) {
   const SceneFolder folder;
-  const Scene scene = folder.load(scene_of(all_methods[4], effects_of_scenes().back()));
+  const LoadedScene scene = folder.load(scene_of(all_methods[4], effects_of_scenes().back()));
   KilledAt kill(folder, 35);
   RunOptions options;
   options.motion = MotionOptions{.path = folder.path("whole.drape")};
@@ -182,7 +182,7 @@ TEST(ResumedRun, NeedsSomethingToGoOnFrom) {
 
 TEST(ResumedRun, IsNotOverwrittenByANewOne) {
   const SceneFolder folder;
-  const Scene scene = folder.load(recorded_scene);
+  const LoadedScene scene = folder.load(recorded_scene);
   record(scene, folder.path("m.drape"), {}, 10);
   const std::string kept = content(folder.path("m.drape.partial"));
   EXPECT_NE(usage_error([&] {
@@ -197,7 +197,7 @@ TEST(ResumedRun, IsNotOverwrittenByANewOne) {
 
 TEST(ResumedRun, LeavesNothingWhereNoStepWasDone) {
   const SceneFolder folder;
-  const Scene scene = folder.load(recorded_scene);
+  const LoadedScene scene = folder.load(recorded_scene);
   RunOptions options;
   options.motion = MotionOptions{.path = folder.path("m.drape")};
   std::stop_source stop;
@@ -212,7 +212,7 @@ TEST(ResumedRun, LeavesNothingWhereNoStepWasDone) {
 TEST(ResumedRun, RefusesDamagedCheckpoints) {
   const SceneFolder folder;
   folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  const Scene scene = folder.load(
+  const LoadedScene scene = folder.load(
       "[cloth]\nmesh = \"t.obj\"\nstiffness = 10\n[time]\nstep = 0.01\nduration = 0.05\n[effects.gravity]\n");
   record(scene, folder.path("m.drape"), {}, 3);
   const std::string good = content(folder.path("m.drape.checkpoint"));

@@ -45,7 +45,7 @@ class StrangersMotion : public testing::Test {
   }
 
   SceneFolder folder_;
-  Scene scene_;
+  LoadedScene scene_;
   std::string good_;
 };
 
@@ -194,9 +194,9 @@ INSTANTIATE_TEST_SUITE_P(Nightly, TamperedMotion, testing::Range(1, 26));
 class StrangersCheckpoint : public testing::Test {
  protected:
   StrangersCheckpoint() {
-    const Scene scene = folder_.load(recorded_scene +
-                                     "[effects.strain_limit]\nmax_stretch = 1.02\n[integrator]\nmethod = "
-                                     "\"implicit\"\nscheme = \"sdirk2\"\n");
+    const LoadedScene scene = folder_.load(recorded_scene +
+                                           "[effects.strain_limit]\nmax_stretch = 1.02\n[integrator]\nmethod = "
+                                           "\"implicit\"\nscheme = \"sdirk2\"\n");
     record(scene, folder_.path("m.drape"), {}, 12);
     partial_ = content(folder_.path("m.drape.partial"));
     checkpoint_ = content(folder_.path("m.drape.checkpoint"));
@@ -234,7 +234,7 @@ TEST_F(StrangersCheckpoint, IsRefusedWherePartsAreMissingOrEmpty) {
 }
 
 TEST_F(StrangersCheckpoint, HasTheNumberOfSubstepsOfAnAccuracy) {
-  const Scene scene = folder_.load(recorded_scene, {"time.accuracy=1e-5"});
+  const LoadedScene scene = folder_.load(recorded_scene, {"time.accuracy=1e-5"});
   std::filesystem::remove(folder_.path("m.drape.partial"));
   std::filesystem::remove(folder_.path("m.drape.checkpoint"));
   record(scene, folder_.path("m.drape"), {}, 12);

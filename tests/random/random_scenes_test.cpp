@@ -82,7 +82,7 @@ std::string outcome(const test::SceneFolder& folder, const std::string& text) {
   Progress progress;
   std::string how = "ok";
   try {
-    const Scene scene = folder.load(text);
+    const LoadedScene scene = folder.load(text);
     const RunResult result = run_scene(scene, options, {}, progress);
     if (result.outcome == Outcome::diverged) {
       how = "diverged";

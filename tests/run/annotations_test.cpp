@@ -39,7 +39,7 @@ TEST(Annotations, LeaveThePictureAsItIsWhereTheyAreNot) {
 TEST(Annotations, ACaptionThatDoesNotFitIsRefusedBeforeTheRun) {
   const test::SceneFolder folder;
   const auto refusal = [&](const std::string& caption) {
-    const Scene scene = folder.load(test::swinging_cloth + "[video]\nsize = [64, 64]\n[caption]\n" + caption);
+    const LoadedScene scene = folder.load(test::swinging_cloth + "[video]\nsize = [64, 64]\n[caption]\n" + caption);
     return folder.without_folder(test::usage_error([&] { Annotations{scene}; }));
   };
   EXPECT_TRUE(refusal("text = \"t = {time:.2f} s\"\nsize = 512\n")
@@ -61,7 +61,7 @@ TEST(Annotations, BandsMakeTheFilmHigherAndLeaveThePicture) {
 
 TEST(Annotations, AreTheSameForPartOfAFilm) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(swinging + "[overlay]\nenergies = true\n[look]\ncolor_by = \"speed\"\n");
+  const LoadedScene scene = folder.load(swinging + "[overlay]\nenergies = true\n[look]\ncolor_by = \"speed\"\n");
   Progress progress;
   RunOptions options;
   options.outputs = {(folder.path() / "{frame:04}.png").string()};

@@ -25,7 +25,7 @@ void expect_same(const std::vector<Frame>& frames, const std::vector<Frame>& exp
 
 TEST(FrameSource, SimulatesOnceAndGivesTheSameFramesEachTime) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(test::moving_scene);
+  const LoadedScene scene = folder.load(test::moving_scene);
   const FilmExtent extent(scene.video, scene.simulation.step, scene.step_count(), {});
   for (const std::size_t memory : {std::size_t{0}, FrameTape::usual_memory}) {
     FrameSource source(scene, nullptr, extent, memory);
@@ -41,7 +41,7 @@ TEST(FrameSource, SimulatesOnceAndGivesTheSameFramesEachTime) {
 
 TEST(FrameSource, GoesThroughAMotionThatDivergesUpToThere) {
   const test::SceneFolder folder;
-  const Scene scene =
+  const LoadedScene scene =
       folder.load(test::moving_scene, {"integrator.method=\"semi-implicit\"", "integrator.allow_unstable=true",
                                        "cloth.stiffness=1e5", "time.duration=4"});
   const FilmExtent extent(scene.video, scene.simulation.step, scene.step_count(), {});

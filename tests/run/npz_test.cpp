@@ -78,7 +78,7 @@ class Npz : public ::testing::Test {
 };
 
 TEST_F(Npz, HoldsTheMotionToTheBit) {
-  const Scene scene = folder_.load(test::moving_scene);
+  const LoadedScene scene = folder_.load(test::moving_scene);
   const auto [result, frames] = test::write_motion(scene, {folder_.path("x.npz")});
   EXPECT_EQ(result.outcome, Outcome::completed);
   ASSERT_EQ(frames.size(), 9U);
@@ -105,7 +105,7 @@ TEST_F(Npz, HoldsTheMotionToTheBit) {
 }
 
 TEST_F(Npz, HoldsTheMeshAsItIs) {
-  const Scene scene = folder_.load(test::moving_scene);
+  const LoadedScene scene = folder_.load(test::moving_scene);
   test::write_motion(scene, {folder_.path("x.npz")});
   read("x.npz");
   const Array faces = array("faces"), uvs = array("uvs");
@@ -121,8 +121,9 @@ TEST_F(Npz, HoldsTheMeshAsItIs) {
 
 TEST_F(Npz, SaysWhichVerticesBelongToWhichCloth) {
   const std::string rest = "stiffness = 10\nmesh = { grid = ";
-  const Scene scene = folder_.load("[[cloth]]\nname = \"shirt\"\n" + rest + "[2, 1] }\n[[cloth]]\nname = \"cap\"\n" +
-                                   rest + "[1, 1] }\n[time]\nstep = 0.01\nduration = 0.01\n[effects.gravity]\n");
+  const LoadedScene scene =
+      folder_.load("[[cloth]]\nname = \"shirt\"\n" + rest + "[2, 1] }\n[[cloth]]\nname = \"cap\"\n" + rest +
+                   "[1, 1] }\n[time]\nstep = 0.01\nduration = 0.01\n[effects.gravity]\n");
   test::write_motion(scene, {folder_.path("x.npz")});
   read("x.npz");
   const Array names = array("cloth_names"), cloths = array("cloths");
@@ -162,7 +163,7 @@ TEST_F(Npz, HasTheFramesThatThereAreWhereTheMotionEndsEarly) {
 }
 
 TEST_F(Npz, TheSameMotionGivesTheSameBytes) {
-  const Scene scene = folder_.load(test::moving_scene);
+  const LoadedScene scene = folder_.load(test::moving_scene);
   test::write_motion(scene, {folder_.path("a.npz"), folder_.path("b.npz")});
   EXPECT_EQ(test::content(folder_.path("a.npz")), test::content(folder_.path("b.npz")));
 }

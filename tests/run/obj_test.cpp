@@ -20,7 +20,7 @@ void expect_same(const Vertices& read, const Vertices& expected) {
 
 TEST(ObjSequence, ReadsBackAsTheFramesOfTheFilm) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(test::moving_scene);
+  const LoadedScene scene = folder.load(test::moving_scene);
   const auto [result, frames] = test::write_motion(scene, {folder.path("mesh{frame:04}.obj")});
 
   EXPECT_EQ(result.outcome, Outcome::completed);
@@ -69,8 +69,9 @@ TEST(Obj, HasTextureCoordinatesOnlyWhereTheMeshHasThem) {
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 0.3 0.1\nvt 0.7 0.9\nvt 1 1\n"
                "f 1/1 2/2 3/3\nf 3/4 2/2 4/1\n");
   for (const std::string name : {"bare", "seam"}) {
-    const Scene scene = folder.load("[cloth]\nmesh = \"" + name + ".obj\"\nstiffness = 10\n[time]\nstep = 0.01\n" +
-                                    "duration = 0.01\n[effects.gravity]\n");
+    const LoadedScene scene =
+        folder.load("[cloth]\nmesh = \"" + name + ".obj\"\nstiffness = 10\n[time]\nstep = 0.01\n" +
+                    "duration = 0.01\n[effects.gravity]\n");
     test::write_motion(scene, {folder.path("out.obj")});
     const Mesh mesh = read_mesh(folder.path("out.obj")), given = read_mesh(folder.path(name + ".obj"));
     EXPECT_EQ(mesh.uvs, given.uvs) << name;

@@ -14,7 +14,7 @@ constexpr std::size_t head = 32;
 
 TEST(PointCache, HoldsTheMotionOfTheMeshBesideIt) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(test::moving_scene);
+  const LoadedScene scene = folder.load(test::moving_scene);
   const auto [result, frames] = test::write_motion(scene, {folder.path("x.pc2")});
   const std::string cache = test::content(folder.path("x.pc2"));
   EXPECT_EQ(cache.substr(0, 12), std::string("POINTCACHE2\0", 12));
@@ -55,7 +55,7 @@ TEST(PointCache, ItsMeshIsAFileLikeAnyOther) {
 
 TEST(Ply, HoldsAFrameToTheBit) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(test::moving_scene);
+  const LoadedScene scene = folder.load(test::moving_scene);
   const auto [result, frames] = test::write_motion(scene, {folder.path("{frame:04}.ply")});
   const std::vector<Triangle>& triangles = scene.simulation.cloth.triangles;
   for (std::size_t k = 0; k < frames.size(); ++k) {

@@ -37,7 +37,7 @@ std::vector<std::string> lines(const fs::path& file) {
   return result;
 }
 
-RunResult run(const Scene& scene, const RunOptions& options) {
+RunResult run(const LoadedScene& scene, const RunOptions& options) {
   Progress progress;
   return run_scene(scene, options, {}, progress);
 }
@@ -116,7 +116,7 @@ TEST(RunScene, RecordsHoldSubstepsAndEstimatesWhereAnAccuracyIsAskedFor) {
 
 TEST(RunScene, PositionsReadBackHaveTheSameBits) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(swinging);
+  const LoadedScene scene = folder.load(swinging);
   RunOptions options;
   options.records.positions = (folder.path() / "positions.csv").string();
   run(scene, options);
@@ -135,7 +135,7 @@ TEST(RunScene, PositionsReadBackHaveTheSameBits) {
 
 TEST(RunScene, EnergiesAreThoseOfTheirStep) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(swinging);
+  const LoadedScene scene = folder.load(swinging);
   RunOptions options;
   options.records.energies = (folder.path() / "energies.csv").string();
   run(scene, options);
@@ -165,7 +165,7 @@ TEST(RunScene, EnergiesAreThoseOfTheirStep) {
 TEST(RunScene, AZeroHasNoSignInTheEnergies) {
   const test::SceneFolder folder;
   // Without gravity, −m·(x·g) is −0.
-  const Scene scene =
+  const LoadedScene scene =
       folder.load("[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 50\n[time]\nstep = 0.02\nduration = 0.1\n");
   RunOptions options;
   options.records.energies = (folder.path() / "energies.csv").string();
@@ -222,8 +222,8 @@ TEST(RunScene, StopsWhenItIsToldToAndKeepsTheRecords) {
 // A run that draws only some frames gives the same pictures as one that draws all.
 TEST(RunScene, WhatIsNotShownNeedNotBeDrawn) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(std::string(swinging) +
-                                  "[video]\nsize = [48, 32]\n[camera]\nposition = [0, -4, 1]\ntarget = [0, 0, 0]\n");
+  const LoadedScene scene = folder.load(
+      std::string(swinging) + "[video]\nsize = [48, 32]\n[camera]\nposition = [0, -4, 1]\ntarget = [0, 0, 0]\n");
   const auto path = [&](const char* name) { return (folder.path() / name).string(); };
   RunOptions all, some;
   all.sheet = some.sheet = SheetGrid{.columns = 2, .rows = 2};
@@ -276,7 +276,7 @@ TEST(RunScene, AnUnwritableRecordIsKnownBeforeAnythingIsSimulated) {
 }
 
 TEST(RunScene, CountsTheStepsThatDidNotConvergeAndTheirWorstResidual) {
-  const Scene scene = load_scene(DRAPE_SOURCE_DIR "/scenes/hard/stiffest.toml");
+  const LoadedScene scene = load_scene(DRAPE_SOURCE_DIR "/scenes/hard/stiffest.toml");
   RunOptions options;
   options.steps = 5;
   const RunResult result = run(scene, options);

@@ -25,7 +25,7 @@ TEST(RunsAtOnce, HaveTheSameBitsAsAlone) {
   constexpr std::size_t count = 3;
   const test::SceneFolder folder;
   const auto run = [&](const std::string& place, std::size_t i) {
-    const Scene scene = load_scene(folder.path(std::to_string(i) + ".toml"));
+    const LoadedScene scene = load_scene(folder.path(std::to_string(i) + ".toml"));
     const std::string to = folder.path(place + std::to_string(i));
     RunOptions options;
     options.outputs = {to + "/film.gif", to + "/still.png"};

@@ -8,7 +8,7 @@ namespace {
 
 TEST(UsdBody, IsAMeshThatMovesAsTheScenes) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(
+  const LoadedScene scene = folder.load(
       test::moving_scene + "[[effects.body]]\nbox = [0.5, 0.4, 0.1]\ncenter = [0, 0, -2]\nvelocity = [1, 0, 0]\n");
   const auto [result, frames] = test::write_motion(scene, {folder.path("x.usda")});
   const MeshMotion motion = read_mesh_motion(folder.path("x.usda"), {.prim = "/Scene/Body1"});

@@ -33,7 +33,7 @@ std::map<int, std::vector<float>> samples(const std::string& usda, const std::st
 
 TEST(Usd, ReadsBackAsTheFramesOfTheFilm) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(test::moving_scene, {"video.speed=0.5"});
+  const LoadedScene scene = folder.load(test::moving_scene, {"video.speed=0.5"});
   RunOptions options;
   options.frames = FrameRange{2, 12};
   const auto [result, frames] = test::write_motion(scene, {folder.path("x.usda")}, options);
@@ -61,7 +61,7 @@ TEST(Usd, ReadsBackAsTheFramesOfTheFilm) {
 
 TEST(Usd, ReadsBackAsAMesh) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(test::moving_scene);
+  const LoadedScene scene = folder.load(test::moving_scene);
   const auto [result, frames] = test::write_motion(scene, {folder.path("x.usda")});
   const Mesh mesh = read_mesh(folder.path("x.usda"));
   EXPECT_LT((mesh.positions - single(frames[0].positions)).cwiseAbs().maxCoeff(), 1e-7);
@@ -103,7 +103,7 @@ TEST(Usd, ItsSphereIsATrackForAnotherScene) {
 
 TEST(Usd, ItsGroundLiesWhereItLies) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(test::moving_scene, {"effects.ground.normal=[0.6,0,0.8]"});
+  const LoadedScene scene = folder.load(test::moving_scene, {"effects.ground.normal=[0.6,0,0.8]"});
   test::write_motion(scene, {folder.path("x.usda")});
   const SourceText source = SourceText::read(folder.path("x.usda"));
   const UsdStage stage(source);
@@ -117,7 +117,7 @@ TEST(Usd, ItsGroundLiesWhereItLies) {
 TEST(Usd, NamesTheTextureAsSeenFromItsFolder) {
   const test::SceneFolder folder;
   folder.write("pictures/mine.png", "");
-  const Scene scene = folder.load(test::moving_scene, {"look.texture=\"pictures/mine.png\""});
+  const LoadedScene scene = folder.load(test::moving_scene, {"look.texture=\"pictures/mine.png\""});
   test::write_motion(scene, {folder.path("x.usda"), folder.path("deep/y.usda")});
   EXPECT_NE(test::content(folder.path("x.usda")).find("inputs:file = @./pictures/mine.png@"), std::string::npos);
   EXPECT_NE(test::content(folder.path("deep/y.usda")).find("inputs:file = @../pictures/mine.png@"), std::string::npos);

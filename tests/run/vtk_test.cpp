@@ -78,7 +78,7 @@ std::vector<DataSet> collection(const std::string& file) {
 
 TEST(Vtk, ACollectionHoldsTheMotionToTheBit) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(test::moving_scene);
+  const LoadedScene scene = folder.load(test::moving_scene);
   const auto [result, frames] = test::write_motion(scene, {folder.path("a & b.pvd")});
   const std::vector<DataSet> sets = collection(folder.path("a & b.pvd"));
   ASSERT_EQ(sets.size(), 2 * frames.size());  // the cloth, and the colliders
@@ -107,7 +107,7 @@ TEST(Vtk, ACollectionHoldsTheMotionToTheBit) {
 
 TEST(Vtk, HoldsTheMeshAsItIs) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(test::moving_scene);
+  const LoadedScene scene = folder.load(test::moving_scene);
   test::write_motion(scene, {folder.path("x.vtp")});
   const PolyData cloth(folder.path("x.vtp"));
   const std::vector<Triangle>& triangles = scene.simulation.cloth.triangles;
@@ -155,7 +155,7 @@ TEST(Vtk, HasTheSurfacesOfColliders) {
 
 TEST(Vtk, WritesWhatRestsOnce) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(test::moving_scene, {"effects.sphere.velocity=[0,0,0]"});
+  const LoadedScene scene = folder.load(test::moving_scene, {"effects.sphere.velocity=[0,0,0]"});
   const auto [result, frames] = test::write_motion(scene, {folder.path("x.pvd")});
   EXPECT_EQ(result.outputs.at(0).size(), frames.size() + 2);
   for (const DataSet& set : collection(folder.path("x.pvd"))) {

@@ -248,7 +248,7 @@ TEST_F(JudgedFilm, LooksTheMoreDifferentTheFurtherTheClothIsAway) {
 
 TEST(AccuracyOptions, MustFitTheMotion) {
   const SceneFolder folder;
-  const Scene scene = folder.load(small_scene);
+  const LoadedScene scene = folder.load(small_scene);
   const auto problem = [&](const AccuracyOptions& options) {
     return test::usage_error([&] { static_cast<void>(complete(options, scene)); });
   };

@@ -16,7 +16,7 @@ class SceneFolder : public ScratchFolder {
     return put(folder_ / name, text);
   }
 
-  [[nodiscard]] Scene load(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+  [[nodiscard]] LoadedScene load(const std::string& text, const std::vector<std::string>& overrides = {}) const {
     return load_scene(write("scene.toml", text), overrides);
   }
 

@@ -39,7 +39,7 @@ struct WrittenMotion {
 };
 
 /// Runs a scene with outputs, and again without any.
-inline WrittenMotion write_motion(const Scene& scene, const std::vector<std::string>& outputs,
+inline WrittenMotion write_motion(const LoadedScene& scene, const std::vector<std::string>& outputs,
                                   const RunOptions& other = {}) {
   RunOptions options = other;
   options.outputs = outputs;

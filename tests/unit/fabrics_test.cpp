@@ -79,8 +79,8 @@ TEST(Fabrics, HaveBothModuliOnMeshesThatCan) {
     if (!f.measured) continue;
     for (const std::string pattern : {"alternating", "x"}) {
       for (const double warp : {0.0, 45.0, 90.0}) {
-        const Scene scene = folder.load(sheet(f.name, "warp = " + std::to_string(warp) + "\n", pattern));
-        EXPECT_TRUE(scene.warnings.empty()) << f.name << scene.warnings.front();
+        const LoadedScene scene = folder.load(sheet(f.name, "warp = " + std::to_string(warp) + "\n", pattern));
+        EXPECT_TRUE(scene.source.warnings.empty()) << f.name << scene.source.warnings.front();
         expect_stiffnesses(scene.simulation.cloth, woven(scene, f.modulus, warp));
       }
     }
@@ -119,9 +119,9 @@ TEST(Fabrics, AreReplacedByTheScenesOwnValues) {
 // A mesh with few directions gets the modulus of each edge's direction, and a warning that names the remedy.
 TEST(Fabrics, WarnOfMeshesThatCannotHaveBothModuli) {
   const SceneFolder folder;
-  const Scene scene = folder.load(sheet("denim", "", "diagonal"));
-  ASSERT_EQ(scene.warnings.size(), 1U);
-  const std::string text = folder.without_folder(scene.warnings[0]);
+  const LoadedScene scene = folder.load(sheet("denim", "", "diagonal"));
+  ASSERT_EQ(scene.source.warnings.size(), 1U);
+  const std::string text = folder.without_folder(scene.source.warnings[0]);
   EXPECT_TRUE(text.starts_with("scene.toml:2:8: mesh: denim: the mesh's edges run in too few directions")) << text;
   EXPECT_NE(text.find("a grid needs pattern \"alternating\" or \"x\""), std::string::npos) << text;
   EXPECT_NE(text.find("each spring gets the modulus of its own direction"), std::string::npos) << text;
@@ -130,13 +130,14 @@ TEST(Fabrics, WarnOfMeshesThatCannotHaveBothModuli) {
   expect_stiffnesses(scene.simulation.cloth, wanted);
   for (const char* const mesh : {"{ grid = [6, 6], pattern = \"equilateral\" }", "{ tube = { around = 24 } }",
                                  "{ disc = { rings = 6 } }", "{ strip = { across = 3 } }"}) {
-    EXPECT_LE(folder.load("[cloth]\nmesh = " + std::string(mesh) + "\nmaterial = \"denim\"\n").warnings.size(), 1U)
+    EXPECT_LE(folder.load("[cloth]\nmesh = " + std::string(mesh) + "\nmaterial = \"denim\"\n").source.warnings.size(),
+              1U)
         << mesh;
   }
   // The scene's own moduli must be exact.
   EXPECT_NE(folder.problems(sheet("denim", "modulus = [300, 200]\n", "diagonal")).find("too few directions"),
             std::string::npos);
-  EXPECT_TRUE(folder.load(sheet("cotton", "", "diagonal")).warnings.empty());
+  EXPECT_TRUE(folder.load(sheet("cotton", "", "diagonal")).source.warnings.empty());
 }
 
 }  // namespace

@@ -68,9 +68,9 @@ TEST(SceneCaption, MistakesAreFoundWhenTheSceneIsRead) {
 
 TEST(SceneCaption, IsNoPartOfWhatAGoldenIsOf) {
   const SceneFolder folder;
-  const std::string plain = folder.load(least_scene).digest;
-  EXPECT_EQ(folder.load(with_caption("t = {time}") + "[overlay]\nenergies = true\n").digest, plain);
-  EXPECT_NE(folder.load(least_scene + "[look]\ncolor = \"#000\"\n").digest, plain);
+  const std::string plain = folder.load(least_scene).source.digest;
+  EXPECT_EQ(folder.load(with_caption("t = {time}") + "[overlay]\nenergies = true\n").source.digest, plain);
+  EXPECT_NE(folder.load(least_scene + "[look]\ncolor = \"#000\"\n").source.digest, plain);
 }
 
 }  // namespace

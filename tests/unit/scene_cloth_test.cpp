@@ -62,10 +62,10 @@ TEST(SceneMesh, IsChosenByItsNameAndTurnedByItsUpAxis) {
       "{\nint[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\npoint3f[] points = [(0, 0, 0), (1, 0, "
       "0), (0, 1, 0)]\n}\n}\n");
   folder.write("lying.obj", "v 0 0 0\nv 1 0 0\nv 0 1 2\nf 1 2 3\n");
-  const Scene chosen = folder.load("[cloth]\nmesh = { file = \"two.usda\", prim = \"/b/c\" }\nstiffness = 7\n");
+  const LoadedScene chosen = folder.load("[cloth]\nmesh = { file = \"two.usda\", prim = \"/b/c\" }\nstiffness = 7\n");
   EXPECT_EQ(chosen.simulation.cloth.vertex_count(), 3);
-  ASSERT_EQ(chosen.inputs.size(), 2U);
-  EXPECT_EQ(chosen.inputs[0].filename(), "two.usda") << chosen.inputs[0];
+  ASSERT_EQ(chosen.source.inputs.size(), 2U);
+  EXPECT_EQ(chosen.source.inputs[0].filename(), "two.usda") << chosen.source.inputs[0];
   const Scene turned = folder.load("[cloth]\nmesh = { file = \"lying.obj\", up = \"y\" }\nstiffness = 7\n");
   EXPECT_EQ(turned.simulation.cloth.positions.row(2), Eigen::RowVector3d(0, -2, 1));
 }
@@ -74,7 +74,7 @@ TEST(SceneMesh, IsChosenByItsNameAndTurnedByItsUpAxis) {
 TEST(SceneMesh, DoubtsSizesAndUpAxesThatAreSeldomMeant) {
   const SceneFolder folder;
   const auto warnings = [&](const std::string& mesh, const std::string& more = "") {
-    return folder.load("[cloth]\nmesh = " + mesh + "\nstiffness = 7\n" + more).warnings;
+    return folder.load("[cloth]\nmesh = " + mesh + "\nstiffness = 7\n" + more).source.warnings;
   };
   const std::string scaled = "[cloth.transform]\nscale = ";
   EXPECT_TRUE(warnings("{ grid = [2, 2] }").empty());
@@ -104,13 +104,14 @@ TEST(SceneMesh, DoubtsSizesAndUpAxesThatAreSeldomMeant) {
 TEST(SceneLook, SaysOfAColourThatATextureCoversThatItIsNotSeen) {
   const SceneFolder folder;
   const std::string cloth = "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 7\n[look]\n";
-  const std::vector<std::string> warnings = folder.load(cloth + "texture = \"plaid.png\"\ncolor = \"red\"\n").warnings;
+  const std::vector<std::string> warnings =
+      folder.load(cloth + "texture = \"plaid.png\"\ncolor = \"red\"\n").source.warnings;
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_TRUE(warnings[0].ends_with(
       "scene.toml:6:9: color: it is not seen, because the texture covers the cloth: omit one of the two"))
       << warnings[0];
-  EXPECT_TRUE(folder.load(cloth + "color = \"red\"\n").warnings.empty());
-  EXPECT_TRUE(folder.load(cloth + "texture = \"plaid.png\"\n").warnings.empty());
+  EXPECT_TRUE(folder.load(cloth + "color = \"red\"\n").source.warnings.empty());
+  EXPECT_TRUE(folder.load(cloth + "texture = \"plaid.png\"\n").source.warnings.empty());
 }
 
 TEST(SceneMesh, SaysItsPiecesItsExtentAndItsEdges) {

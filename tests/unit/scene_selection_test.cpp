@@ -111,25 +111,27 @@ TEST(SceneFollow, ReadsTheMeshThatPinsHoldOnTo) {
                "int[] faceVertexIndices = [0, 1, 2]\npoint3f[] points.timeSamples = { 0: [(0, 0, 0), (1, 0, 0), (0, 1, "
                "0)], 24: [(0, 0, 1), (1, 0, 1), (0, 1, 1)] }\n}\n");
   const std::string table = "[effects.moving_pins]\npins = [{ border = \"all\", every = 4 }]\nfollow = ";
-  const Scene scene = folder.load(cloth("{ border = \"all\" }") + table + "{ file = \"lift.usda\", prim = \"/m\" }\n");
+  const LoadedScene scene =
+      folder.load(cloth("{ border = \"all\" }") + table + "{ file = \"lift.usda\", prim = \"/m\" }\n");
   const auto* pins = scene.simulation.effects.begin()->as<MovingPins>();
   ASSERT_NE(pins, nullptr);
   EXPECT_EQ(pins->pins, (std::vector{0, 4, 20, 24}));
   ASSERT_NE(pins->follow, nullptr);
   EXPECT_EQ(pins->follow->times, (std::vector<double>{0, 1}));
   const auto named = [](const std::filesystem::path& input) { return input.filename() == "lift.usda"; };
-  EXPECT_EQ(std::ranges::count_if(scene.inputs, named), 1);
-  EXPECT_NE(scene.portable.text.find("file = \"file-1.usda\", prim = \"/m\""), std::string::npos)
-      << scene.portable.text;
+  EXPECT_EQ(std::ranges::count_if(scene.source.inputs, named), 1);
+  EXPECT_NE(scene.source.portable.text.find("file = \"file-1.usda\", prim = \"/m\""), std::string::npos)
+      << scene.source.portable.text;
 
   folder.write("body/008.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   folder.write("body/009.obj", "v 0 0 2\nv 1 0 2\nv 0 1 2\nf 1 2 3\n");
-  const Scene played =
+  const LoadedScene played =
       folder.load(cloth("{ border = \"all\" }") + table + "{ file = \"body/{frame:03}.obj\", fps = 4 }\n");
   EXPECT_EQ(played.simulation.effects.begin()->as<MovingPins>()->follow->times, (std::vector<double>{0, 0.25}));
-  EXPECT_NE(played.portable.text.find("\"file-1-{frame:03}.obj\""), std::string::npos) << played.portable.text;
-  ASSERT_EQ(played.portable.files.size(), 2U);
-  EXPECT_EQ(played.portable.files[1].name, "file-1-009.obj");
+  EXPECT_NE(played.source.portable.text.find("\"file-1-{frame:03}.obj\""), std::string::npos)
+      << played.source.portable.text;
+  ASSERT_EQ(played.source.portable.files.size(), 2U);
+  EXPECT_EQ(played.source.portable.files[1].name, "file-1-009.obj");
   EXPECT_NE(folder.problems(cloth("0") + "[effects.moving_pins]\npins = [0]\nfollow = { file = \"nowhere.usda\" }\n")
                 .find("scene.toml:7:10: follow: 'nowhere.usda' cannot be read:\nnowhere.usda: no such file"),
             std::string::npos);
@@ -151,13 +153,13 @@ TEST(SceneFollow, CarriesWhatAUsdFileRefersTo) {
       "#usda 1.0\ndef Mesh \"m\" {\nint[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\npoint3f[] "
       "points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n}\n");
   folder.write("whole.usda", "#usda 1.0\ndef \"a\" ( references = @parts/part.usda@</m> ) {}\n");
-  const Scene scene = folder.load(cloth("0", "\"whole.usda\""));
+  const LoadedScene scene = folder.load(cloth("0", "\"whole.usda\""));
   const std::filesystem::path place = folder.path() / "moved";
-  for (const PortableScene::File& file : scene.portable.files) {
+  for (const PortableScene::File& file : scene.source.portable.files) {
     std::filesystem::create_directories(place);
     std::filesystem::copy_file(file.place, place / file.name);
   }
-  const Scene again = load_scene(folder.write("moved/scene.toml", scene.portable.text));
+  const Scene again = load_scene(folder.write("moved/scene.toml", scene.source.portable.text));
   EXPECT_EQ(again.simulation.cloth.positions, scene.simulation.cloth.positions);
 }
 

@@ -182,7 +182,8 @@ TEST(BodyShapes, BelongToTheMotion) {
   const auto tables = [&](const std::string& radius) {
     std::string text;
     for (const SceneValue& value :
-         folder.load(test::with("effects.body", "sphere = { radius = " + radius + " }\ncenter = [0, 0, -2]")).tables) {
+         folder.load(test::with("effects.body", "sphere = { radius = " + radius + " }\ncenter = [0, 0, -2]"))
+             .source.tables) {
       text += value.key + "=" + value.text + "\n";
     }
     return text;

@@ -1,7 +1,7 @@
 #pragma once
 
 // Example:
-//   const drape::Scene scene = drape::load_scene("scene.toml", {"cloth.stiffness=300"});
+//   const drape::LoadedScene scene = drape::load_scene("scene.toml", {"cloth.stiffness=300"});
 //   drape::Simulation simulation(scene.simulation);
 //   while (simulation.state().step < scene.step_count()) simulation.step();
 
@@ -68,7 +68,6 @@ enum class Quality { draft, film, print };
 
 /// A scene: plain data, complete and checked.
 struct Scene {
-  std::filesystem::path file;
   std::string name;  ///< the file's name without its ending: "5" for scenes/homework/5.toml
   SimulationSettings simulation;
   double duration = 5;                    ///< [s]
@@ -79,21 +78,31 @@ struct Scene {
   CaptionSettings caption;
   OverlaySettings overlay;
   CheckSettings check;
-  std::vector<std::filesystem::path> inputs;  ///< every file read: the scene itself, meshes, tracks, the texture
-  std::string texture_location;               ///< place of the texture's name, for messages: "scene.toml:9:11"
-  std::vector<SceneField> fields;             ///< every key with its value
-  std::string caption_place;                  ///< place of the caption's text, for messages
-  /// Hash of the file and the overrides, except [check], [caption] and [overlay]; 16 hexadecimal digits. Comments, the
-  /// order of keys and the notation of numbers do not change it.
-  std::string digest;
-  std::vector<SceneValue> tables;      ///< values in the tables that affect the motion, see physics_values()
-  PortableScene portable;              ///< the scene and all its input files
-  std::vector<std::string> warnings;   ///< warnings about valid but unlikely values: "scene.toml:2:8: …"
   std::optional<MethodChoice> choice;  ///< automatic choice of a method if none is named
   std::optional<Quality> quality;      ///< quality that its numbers were adjusted for
 
   /// Returns the number of steps that cover the duration: duration/step, rounded to the nearest whole number.
   [[nodiscard]] std::int64_t step_count() const;
+};
+
+/// The origin of a scene, and the data that name, store and compare it.
+struct SceneSource {
+  std::filesystem::path file;
+  std::vector<std::filesystem::path> inputs;  ///< every file read: the scene itself, meshes, tracks, the texture
+  std::string texture_location;               ///< place of the texture's name, for messages: "scene.toml:9:11"
+  std::string caption_place;                  ///< place of the caption's text, for messages
+  std::vector<SceneField> fields;             ///< every key with its value
+  /// Hash of the file and the overrides, except [check], [caption] and [overlay]; 16 hexadecimal digits. Comments, the
+  /// order of keys and the notation of numbers do not change it.
+  std::string digest;
+  std::vector<SceneValue> tables;     ///< values in the tables that affect the motion, see physics_values()
+  PortableScene portable;             ///< the scene and all its input files
+  std::vector<std::string> warnings;  ///< warnings about valid but unlikely values: "scene.toml:2:8: …"
+};
+
+/// A scene with its source.
+struct LoadedScene : Scene {
+  SceneSource source;
 };
 
 /// Cells of a scene's grid.
@@ -108,8 +117,8 @@ enum class Cells {
 ///                  any TOML value, or a bare word, which is a string
 /// @throws UsageError whose message lists every problem of the file and the overrides, a line each:
 ///         "file:line:col: message", or "--set key.path=value: message"
-Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
-                 Cells cells = Cells::of_quality);
+LoadedScene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                       Cells cells = Cells::of_quality);
 
 /// Returns overrides by scene that give all scenes whose method was chosen the same one, so that they can be compared;
 /// see shared_method(). All are empty if these agree already or can share none.
@@ -120,8 +129,8 @@ std::vector<std::vector<std::string>> shared_method_overrides(const std::vector<
 /// @param document a table; messages name its places. Line 0: made by a program, without a text
 /// @param file     file name for messages; files named in the scene are looked up in its folder
 /// @throws UsageError as load_scene()
-Scene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
-                 Cells cells = Cells::of_quality);
+LoadedScene make_scene(TomlValue document, const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides = {}, Cells cells = Cells::of_quality);
 
 /// Returns the data folder, which holds textures/, shaders/ and scenes/: the one set by use_data_folder(), else the one
 /// installed with the program or the library (share/drape), else the source tree of the build.
@@ -182,7 +191,7 @@ void apply_quality(Scene& scene, const std::function<bool(const char*)>& given);
 
 /// Returns every value of a scene that affects the motion, key by key. A key that is left out equals its default.
 /// Camera, look, film and duration are not included. Long values (a mesh, a track) are hashed.
-std::vector<SceneValue> physics_values(const Scene& scene);
+std::vector<SceneValue> physics_values(const LoadedScene& scene);
 
 /// Computes a hash of these values: 16 hexadecimal digits.
 std::string physics_hash(const std::vector<SceneValue>& values);

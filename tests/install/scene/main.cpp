@@ -5,7 +5,7 @@
 // scene SCENE: prints the last positions in the format of drape simulate --positions.
 int main(int, char** argv) {
   try {
-    const drape::Scene scene = drape::load_scene(argv[1]);
+    const drape::LoadedScene scene = drape::load_scene(argv[1]);
     drape::Simulation simulation(scene.simulation);
     while (simulation.state().step < scene.step_count()) simulation.step();
     const drape::Vertices& x = simulation.state().x;
