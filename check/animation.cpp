@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
-#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -18,10 +16,7 @@
 #include "drape/core/error.hpp"
 #include "drape/render/image.hpp"
 #include "output/codecs/codecs.hpp"
-#include "output/gif_encoder.hpp"
 #include "output/html_writer.hpp"
-#include "output/png_encoder.hpp"
-#include "reports/players.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -136,8 +131,7 @@ double common_amplification(const std::vector<Pair>& pairs) {
   return amplification(largest);
 }
 
-/// Returns the pair with the largest difference, at which the loop begins: a page shows a GIF's first frame until it
-/// plays.
+/// Returns the pair with the largest difference.
 std::size_t most_different(const std::vector<Pair>& pairs) {
   const auto difference = [](const Pair& pair) { return summed_difference(pair.expected, pair.actual); };
   return static_cast<std::size_t>(std::ranges::max_element(pairs, {}, difference) - pairs.begin());
@@ -167,18 +161,14 @@ DifferenceAnimation difference_animation(const Scene& scene, const Golden& golde
   if (pairs.empty()) return {};
 
   const std::filesystem::path file = folder / result.name / "difference.gif";
-  const std::unique_ptr<Encoder> encoder =
-      std::make_unique<GifEncoder>(file, moved ? motion_rate : picture_rate, std::function<void(int, int)>());
   const double factor = common_amplification(pairs);
-  std::vector<Image> frames;
-  for (const Pair& pair : pairs) frames.push_back(side_by_side(pair, factor));
-  const std::size_t worst = most_different(pairs);
-  for (std::size_t k = 0; k < frames.size(); ++k) encoder->add(frames[(worst + k) % frames.size()]);
-  encoder->finish();
-  std::vector<const Image*> moments;
-  for (const std::size_t i : html::printed_moments(frames.size())) moments.push_back(&frames[i]);
-  made.gif = read_file(file, std::filesystem::file_size(file));
-  made.stills = encode_png(montage(moments, 1, gap, gap_gray));
+  made.film = write_page_film(file, moved ? motion_rate : picture_rate,
+                              {.count = pairs.size(),
+                               .first = most_different(pairs),
+                               .picture = [&](std::size_t i) { return side_by_side(pairs[i], factor); },
+                               .columns = 1,
+                               .gap = gap,
+                               .gray = gap_gray});
   return made;
 }
 

@@ -8,13 +8,14 @@
 #include "check/report.hpp"
 #include "drape/render/settings.hpp"
 #include "drape/scene/scene.hpp"
+#include "output/gif_encoder.hpp"
 #include "reports/players.hpp"
 
 namespace drape {
 
-/// An animation as GIF bytes, and some of its frames below one another as PNG bytes; both empty: there is none.
+/// A film of a difference; without bytes if there is none.
 struct DifferenceAnimation {
-  std::string gif, stills;
+  PageFilm film;
   html::PlayedMotion expected, actual;  ///< states of a changed motion, for interactive viewing
 };
 

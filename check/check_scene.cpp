@@ -307,8 +307,8 @@ class SceneCheck {
     if (!stop_.stop_requested()) {
       DifferenceAnimation made =
           difference_animation(scene_, golden_, result_, recorded_, options_.backend, options_.artefacts);
-      result_.animation = std::move(made.gif);
-      result_.stills = std::move(made.stills);
+      result_.animation = std::move(made.film.gif);
+      result_.stills = std::move(made.film.stills);
       result_.expected = std::move(made.expected);
       result_.actual = std::move(made.actual);
     }

@@ -62,6 +62,9 @@ class Fields {
   std::string name_;
 };
 
+/// The file that marks the folder of a shard of a check, see parts_in().
+inline constexpr const char* check_mark = "check.cbor";
+
 /// A part of a check: the report of some of its scenes, and their positions among all.
 struct CheckShard {
   CheckReport report;

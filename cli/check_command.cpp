@@ -23,7 +23,6 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "run/shard.hpp"
-#include "sweep/merge.hpp"
 
 namespace drape {
 namespace {

@@ -24,7 +24,6 @@
 #include "study/stability_report.hpp"
 #include "study/validation_measures.hpp"
 #include "study/validation_report.hpp"
-#include "sweep/merge.hpp"
 
 namespace drape {
 namespace {

@@ -22,7 +22,6 @@
 #include "core/text.hpp"
 #include "drape/scene/scene.hpp"
 #include "scene/selection.hpp"
-#include "sweep/merge.hpp"
 
 namespace drape {
 namespace {

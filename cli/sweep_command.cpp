@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <memory>
 #include <utility>
 
 #include "check/candidate.hpp"
+#include "check/manifest.hpp"
 #include "cli/options.hpp"
 #include "cli/study_command.hpp"
 #include "cli/summary.hpp"
@@ -249,8 +251,8 @@ CheckShard read_shard(const fs::path& part) {
   return shard;
 }
 
-ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder, FigureStyle style,
-                      const CommonOptions& common) {
+ExitCode merge_checks(const std::vector<fs::path>& parts, const StudyFiles& to, const CommonOptions& common) {
+  const fs::path folder = to.folder;
   std::vector<CheckShard> shards;
   std::vector<std::pair<fs::path, std::string>> found;  // parts and their scenes
   for (const fs::path& part : parts) {
@@ -271,14 +273,33 @@ ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder
     }
     tell(result, common, verdicts);
   }
-  return conclude_check(whole, folder, style, common, verdicts);
+  return conclude_check(whole, folder, to.style, common, verdicts);
 }
 
-/// Returns the kind of shards in a folder, by its marker file.
+ExitCode merge_sweep(const std::vector<fs::path>& parts, const StudyFiles& to, const CommonOptions& common) {
+  SweepFile whole = merge_sweeps(parts, to.folder, interruption().get_token());
+  if (interrupted()) return ExitCode::interrupted;
+  return conclude_sweep(read_results(to.folder, std::move(whole)), to.folder, to.style, common);
+}
+
+/// A kind of shards: the file that marks them, and the function that merges them.
+struct ShardKind {
+  const char *mark, *name;
+  ExitCode (*merge)(const std::vector<fs::path>& parts, const StudyFiles& to, const CommonOptions& common);
+};
+
+constexpr std::array shard_kinds{
+    ShardKind{check_mark, "check", merge_checks},
+    ShardKind{stability_runs_name, "study of stability", merge_stability_study},
+    ShardKind{validation_shard_name, "study of validation", merge_validation_study},
+    ShardKind{sweep_mark, "sweep", merge_sweep},
+};
+
+/// Returns the kind of the shards in a folder.
 /// @throws UsageError if there are none
-const char* mark_in(const fs::path& folder) {
-  for (const char* mark : {check_mark, stability_runs_name, validation_shard_name, sweep_mark}) {
-    if (!parts_in(folder, mark).empty()) return mark;
+const ShardKind& kind_in(const fs::path& folder) {
+  for (const ShardKind& kind : shard_kinds) {
+    if (!parts_in(folder, kind.mark).empty()) return kind;
   }
   throw UsageError(fmt::format(
       "{}: there is no sweep, check or study of stability or validation in it, nor a shard of one", shown(folder)));
@@ -287,26 +308,17 @@ const char* mark_in(const fs::path& folder) {
 ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
   interruption();  // from here on, a signal stops between two files
   for (const std::string& folder : arguments.folders) require_links_inside(folder);
-  const char* mark = mark_in(arguments.folders.front());
+  const ShardKind& kind = kind_in(arguments.folders.front());
   std::vector<fs::path> parts;
   for (const std::string& folder : arguments.folders) {
-    const std::vector<fs::path> found = parts_in(folder, mark);
+    const std::vector<fs::path> found = parts_in(folder, kind.mark);
     if (found.empty()) {
-      throw UsageError(fmt::format("{}: there is neither a {} in it nor a shard of one", folder,
-                                   mark == check_mark            ? "check"
-                                   : mark == sweep_mark          ? "sweep"
-                                   : mark == stability_runs_name ? "study of stability"
-                                                                 : "study of validation"));
+      throw UsageError(fmt::format("{}: there is neither a {} in it nor a shard of one", folder, kind.name));
     }
     parts.insert(parts.end(), found.begin(), found.end());
   }
-  const fs::path folder = arguments.output.empty() ? arguments.folders.front() : arguments.output;
-  if (mark == check_mark) return merge_checks(parts, folder, arguments.style, common);
-  if (mark == stability_runs_name) return merge_stability_study(parts, {folder.string(), arguments.style}, common);
-  if (mark == validation_shard_name) return merge_validation_study(parts, {folder.string(), arguments.style}, common);
-  SweepFile whole = merge_sweeps(parts, folder, interruption().get_token());
-  if (interrupted()) return ExitCode::interrupted;
-  return conclude_sweep(read_results(folder, std::move(whole)), folder, arguments.style, common);
+  const std::string& folder = arguments.output.empty() ? arguments.folders.front() : arguments.output;
+  return kind.merge(parts, {folder, arguments.style}, common);
 }
 
 }  // namespace

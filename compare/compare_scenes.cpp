@@ -159,7 +159,10 @@ namespace {
 
 constexpr int most_page_pictures = 75, most_page_moments = 25;
 
-bool is_page(const std::string& path) { return std::filesystem::path(path).extension() == ".html"; }
+bool is_page(const std::string& path) {
+  const OutputFormat* format = find_format(path);
+  return format != nullptr && format->extension == ".html";
+}
 
 /// Returns the outputs that are pages, or those that are not.
 std::vector<std::string> outputs_that(bool pages, const CompareOptions& options) {

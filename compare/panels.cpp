@@ -28,12 +28,6 @@ constexpr int decades = 3;  // of distances below the limit
 /// @param part the distance as a fraction of the limit
 double along_scale(double part) { return part <= 0 ? 0 : std::clamp(1 + std::log10(part) / decades, 0.0, 1.0); }
 
-/// Appends a picture of the same width below another.
-void append_below(Image& upper, const Image& lower) {
-  upper.height += lower.height;
-  upper.pixels.insert(upper.pixels.end(), lower.pixels.begin(), lower.pixels.end());
-}
-
 }  // namespace
 
 Eigen::VectorXd distances(const Frame& frame, const Frame& other, const VertexOrder& order) {

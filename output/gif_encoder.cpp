@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
+#include "core/files.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "output/gif/film_writer.hpp"
 #include "output/gif/palette.hpp"
 #include "output/png_encoder.hpp"
+#include "reports/players.hpp"
 
 namespace drape {
 namespace {
@@ -70,6 +74,23 @@ OutputFormat gif_format() {
           .make = FilmMaker<Image>([](const std::filesystem::path& file, const FilmInfo& film) {
             return std::make_unique<GifEncoder>(file, film.fps, film.progress);
           })};
+}
+
+PageFilm write_page_film(const std::filesystem::path& gif, double fps, const PageFrames& frames) {
+  GifEncoder encoder(gif, fps, {});
+  const std::set<std::size_t> printed = html::printed_moments(frames.count);
+  std::map<std::size_t, Image> stills;
+  for (std::size_t k = 0; k < frames.count; ++k) {
+    const std::size_t frame = (frames.first + k) % frames.count;
+    Image image = frames.picture(frame);
+    encoder.add(image);
+    if (printed.contains(frame)) stills.emplace(frame, std::move(image));
+  }
+  encoder.finish(Ending::complete);
+  std::vector<const Image*> moments;
+  for (const auto& [frame, still] : stills) moments.push_back(&still);
+  return {read_file(gif, std::filesystem::file_size(gif)),
+          encode_png(montage(moments, frames.columns, frames.gap, frames.gray))};
 }
 
 namespace {

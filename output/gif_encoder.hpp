@@ -37,6 +37,24 @@ class GifEncoder : public Encoder {
 
 OutputFormat gif_format();
 
+/// A film on a page as the bytes of its files: a looping GIF, and for print some of its frames in a PNG.
+struct PageFilm {
+  std::string gif, stills;
+};
+
+/// The frames of a page's film, and how its stills are arranged, see montage().
+struct PageFrames {
+  std::size_t count = 0;                            ///< at least one
+  std::size_t first = 0;                            ///< where the loop begins: a page shows it until it plays
+  std::function<Image(std::size_t frame)> picture;  ///< called once for each frame, from the first one on
+  int columns = 1, gap = 0;
+  std::uint8_t gray = 255;
+};
+
+/// Writes the GIF of a page's film, and returns it with its stills: those of html::printed_moments().
+/// @throws OutputError, and what picture() throws: then no file is written
+PageFilm write_page_film(const std::filesystem::path& gif, double fps, const PageFrames& frames);
+
 /// A film of limited file size. It keeps all pictures until the last is added, then encodes them at several sizes and
 /// rates to find the largest film that fits. Its duration is unchanged: it plays every n-th picture.
 ///

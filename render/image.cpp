@@ -82,6 +82,12 @@ Image montage(const std::vector<const Image*>& pictures, int columns, int gap, s
   return whole;
 }
 
+void append_below(Image& upper, const Image& lower) {
+  if (upper.width != lower.width) throw std::invalid_argument("pictures of different widths cannot be put together");
+  upper.height += lower.height;
+  upper.pixels.insert(upper.pixels.end(), lower.pixels.begin(), lower.pixels.end());
+}
+
 namespace {
 
 void require_size(const std::filesystem::path& file, int width, int height, int largest) {

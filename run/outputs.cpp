@@ -60,12 +60,6 @@ void require_caption(Pen& pen, const Scene& scene) {
   }
 }
 
-/// Appends the rows of `band` below a picture.
-void append(Image& picture, const Image& band) {
-  picture.height += band.height;
-  picture.pixels.insert(picture.pixels.end(), band.pixels.begin(), band.pixels.end());
-}
-
 }  // namespace
 
 Annotations::Annotations(const LoadedScene& scene)
@@ -132,11 +126,11 @@ Image Annotations::annotate(Image drawn, const Frame& frame) {
   const int size = band_text_size(scene_);
   if (coloring_) {
     if (!bar_) bar_ = color_bar(pen_, drawn.width, size, coloring_->measure().title(), coloring_->marks());
-    append(drawn, *bar_);
+    append_below(drawn, *bar_);
   }
   if (scene_.overlay.energies) {
     if (!curves_) curves_.emplace(drawn.width, size, "J", times_, energies_);
-    append(drawn, curves_->draw(pen_, frame.time));
+    append_below(drawn, curves_->draw(pen_, frame.time));
   }
   return drawn;
 }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <charconv>
 #include <numeric>
+#include <system_error>
 
 #include "core/machine.hpp"
+#include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "drape/sim/schemes/method_choice.hpp"
 #include "run/outputs.hpp"
@@ -42,6 +44,59 @@ std::vector<std::size_t> runs_of_shard(const std::vector<double>& costs, const S
   }
   std::sort(mine.begin(), mine.end());
   return mine;
+}
+
+namespace {
+
+constexpr const char* shard_prefix = "shard-";
+
+bool is_part(const std::filesystem::path& folder, const char* mark) {
+  std::error_code ignored;
+  return std::filesystem::exists(folder / mark, ignored);
+}
+
+}  // namespace
+
+std::filesystem::path shard_place(const std::filesystem::path& folder, const Shard& shard) {
+  return shard.whole() ? folder : folder / fmt::format("{}{}-of-{}", shard_prefix, shard.number, shard.count);
+}
+
+std::vector<std::filesystem::path> parts_in(const std::filesystem::path& folder, const char* mark) {
+  std::vector<std::filesystem::path> found;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().filename().string().starts_with(shard_prefix) && is_part(entry.path(), mark)) {
+      found.push_back(entry);
+    }
+  }
+  if (error == std::errc::not_a_directory) {
+    throw UsageError(fmt::format("{}: this is a file; expected a folder with shards", shown(folder)));
+  }
+  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", shown(folder), error.message()));
+  std::ranges::sort(found);
+  if (found.empty() && is_part(folder, mark)) found.push_back(folder);
+  return found;
+}
+
+bool FoundShards::add(const Shard& shard, const std::filesystem::path& file) {
+  if (files_.empty()) {
+    count_ = shard.count;
+    first_ = file;
+  }
+  if (shard.count != count_) fail_as_other(file);
+  return files_.try_emplace(shard.number, file).second;
+}
+
+void FoundShards::fail_as_other(const std::filesystem::path& file) const {
+  throw UsageError(fmt::format("{} and {} are not of one {}", shown(file), shown(first_), whole_));
+}
+
+std::vector<Shard> FoundShards::missing() const {
+  std::vector<Shard> missing;
+  for (std::size_t k = 1; k <= count_; ++k) {
+    if (!files_.contains(k)) missing.push_back({k, count_});
+  }
+  return missing;
 }
 
 namespace {

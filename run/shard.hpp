@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,39 @@ Shard parse_shard(const std::string& text);
 /// Returns the runs of a shard, ascending. Greedy assignment balances the costs: the costliest run first, each to the
 /// shard with the least load. Depends on the costs alone.
 std::vector<std::size_t> runs_of_shard(const std::vector<double>& costs, const Shard& shard);
+
+/// Returns the folder of a shard in the folder of the whole: "shard-2-of-5"; the folder itself for the whole.
+std::filesystem::path shard_place(const std::filesystem::path& folder, const Shard& shard);
+
+/// Returns the folders with parts of a whole: the shards in a folder, or the folder itself. Empty if there is neither.
+/// @param mark the file that identifies a part
+/// @throws UsageError if the folder cannot be read
+std::vector<std::filesystem::path> parts_in(const std::filesystem::path& folder, const char* mark);
+
+/// The shards that were found while they are merged.
+class FoundShards {
+ public:
+  /// @param whole what they are parts of, for messages: "study"
+  explicit FoundShards(std::string whole) : whole_(std::move(whole)) {}
+
+  /// Adds the shard of a file.
+  /// @returns false if there is one with its number already
+  /// @throws UsageError if the whole has another number of shards
+  bool add(const Shard& shard, const std::filesystem::path& file);
+
+  /// @throws UsageError that says that a file is of another whole than the first one
+  [[noreturn]] void fail_as_other(const std::filesystem::path& file) const;
+
+  [[nodiscard]] bool empty() const { return files_.empty(); }
+  /// Returns the shards that are not there.
+  [[nodiscard]] std::vector<Shard> missing() const;
+
+ private:
+  std::string whole_;
+  std::size_t count_ = 0;
+  std::filesystem::path first_;
+  std::map<std::size_t, std::filesystem::path> files_;  // by the shards' numbers
+};
 
 /// Limit of the automatic thread count. Beyond it loop overhead grows and memory bandwidth is exhausted
 /// (docs/notes/performance.md).

@@ -213,8 +213,8 @@ std::optional<StudyPicture> animate_accuracy(const SceneAccuracy& accuracy, Anim
   auto animation = animate_errors(scene, to_rounding(reference, Method::implicit), panels, folder / picture.file,
                                   backend, stop, progress);
   if (!animation) return std::nullopt;
-  picture.bytes = std::move(animation->gif);
-  picture.stills = std::move(animation->stills);
+  picture.bytes = std::move(animation->film.gif);
+  picture.stills = std::move(animation->film.stills);
   const AnimationPanel& worst = panels[animation->worst_panel];
   picture.motions = {{"the reference", {}, std::move(animation->reference)},
                      {worst.label + ", which ends furthest from the reference", worst.what.film_command("motion.html"),

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <map>
-#include <memory>
 #include <numeric>
 
 #include "core/files.hpp"
@@ -16,12 +14,9 @@
 #include "drape/render/overlay/pen.hpp"
 #include "drape/render/renderer.hpp"
 #include "drape/sim/mesh.hpp"
-#include "output/gif_encoder.hpp"
-#include "output/png_encoder.hpp"
 #include "render/flip.hpp"
 #include "render/overlay/color_scale.hpp"
 #include "render/overlay/diagrams.hpp"
-#include "reports/players.hpp"
 #include "run/frame_source.hpp"
 #include "run/outputs.hpp"
 #include "run/run_scene.hpp"
@@ -132,14 +127,6 @@ Image distance_bar(Pen& pen, int width) {
   return color_bar(pen, width, letters, "distance from the reference", marks);
 }
 
-Image beneath(const Image& upper, const Image& lower) {
-  Image whole(upper.width, upper.height + lower.height);
-  std::copy(upper.pixels.begin(), upper.pixels.end(), whole.pixels.begin());
-  std::copy(lower.pixels.begin(), lower.pixels.end(),
-            whole.pixels.begin() + static_cast<std::ptrdiff_t>(upper.pixels.size()));
-  return whole;
-}
-
 /// Painter of panels of one cloth.
 class PanelPainter {
  public:
@@ -162,7 +149,8 @@ class PanelPainter {
                fmt::format("error {}, {} flipped {}", readable_length(distances.maxCoeff()), flipped,
                            flipped == 1 ? "pair" : "pairs"),
                letters, band_ink);
-    return beneath(head, cloth);
+    append_below(head, cloth);
+    return head;
   }
 
  private:
@@ -225,40 +213,37 @@ std::optional<Animation> animate_errors(const Scene& scene, const SimulationSett
 
   const Eigen::Vector2i size(picture_width, picture_width * scene.video.size.y() / scene.video.size.x());
   PanelPainter painter(scene, view_of(scene, size, motions), size, backend, pen);
-  const int columns = panels.size() == 3 ? 3 : 2;
-  const std::unique_ptr<Encoder> encoder =
-      std::make_unique<GifEncoder>(file, video.fps, std::function<void(int, int)>());
   progress.begin("drawing the animation", "frames", static_cast<std::int64_t>(exact.size()));
-  Image bar;
-  std::map<std::size_t, Image> stills;
-  const std::set<std::size_t> printed = html::printed_moments(exact.size());
-  PosterFrame poster(scene.simulation.cloth.triangles);
-  for (const Frame& frame : exact) poster.see(frame.positions);
-  // The loop begins at its poster: a page shows a GIF's first frame until it plays.
-  for (std::size_t k = 0; k < exact.size(); ++k) {
-    const std::size_t f = (static_cast<std::size_t>(poster.index()) + k) % exact.size();
-    if (stop.stop_requested()) return std::nullopt;
+  const auto draw = [&](std::size_t f) {
+    if (stop.stop_requested()) throw Interrupted();
     std::vector<Image> pictures;
+    std::vector<const Image*> list;
     for (std::size_t p = 0; p < panels.size(); ++p) {
       pictures.push_back(painter.draw(panels[p].label, motions[p][f], exact[f].positions));
     }
-    std::vector<const Image*> list;
     for (const Image& picture : pictures) list.push_back(&picture);
-    const Image all = montage(list, columns, gap, paper);
-    if (bar.width == 0) bar = distance_bar(pen, all.width);
-    const Image whole = beneath(all, bar);
-    if (printed.contains(f)) stills.emplace(f, whole);
-    encoder->add(whole);
+    Image whole = montage(list, panels.size() == 3 ? 3 : 2, gap, paper);
+    append_below(whole, distance_bar(pen, whole.width));
     ++progress.done;
+    return whole;
+  };
+  PosterFrame poster(scene.simulation.cloth.triangles);
+  for (const Frame& frame : exact) poster.see(frame.positions);
+  PageFilm film;
+  try {
+    film = write_page_film(file, video.fps,
+                           {.count = exact.size(),
+                            .first = static_cast<std::size_t>(poster.index()),
+                            .picture = draw,
+                            .columns = stills_in_a_row,
+                            .gap = gap,
+                            .gray = paper});
+  } catch (const Interrupted&) {
+    return std::nullopt;
   }
-  encoder->finish();
-  std::vector<const Image*> moments;
-  for (const auto& [f, still] : stills) moments.push_back(&still);
-  const std::string picture = encode_png(montage(moments, stills_in_a_row, gap, paper));
-  write_file_atomically(std::filesystem::path(file).replace_extension(".png"), picture);
+  write_file_atomically(std::filesystem::path(file).replace_extension(".png"), film.stills);
   const std::size_t worst = furthest(motions, exact.back());
-  return Animation{read_file(file, std::filesystem::file_size(file)), picture, pack_for_page(scene, exact),
-                   pack_for_page(scene, motions[worst]), worst};
+  return Animation{std::move(film), pack_for_page(scene, exact), pack_for_page(scene, motions[worst]), worst};
 }
 
 }  // namespace drape

@@ -10,6 +10,7 @@
 #include "drape/render/renderer.hpp"
 #include "drape/render/settings.hpp"
 #include "drape/scene/scene.hpp"
+#include "output/gif_encoder.hpp"
 #include "render/camera_path.hpp"
 #include "run/progress.hpp"
 #include "study/reference.hpp"
@@ -55,9 +56,9 @@ struct AnimationPanel {
   std::string label;  ///< "liu13, tolerance 0.001: 190 µs per step"
 };
 
-/// An animation as GIF, some of its frames in a PNG, and two of its motions for interactive viewing.
+/// A film of several motions, and two of them for interactive viewing.
 struct Animation {
-  std::string gif, stills;
+  PageFilm film;
   html::PlayedMotion reference = {}, worst = {};
   std::size_t worst_panel = 0;  ///< the panel with the largest error at the end
 };

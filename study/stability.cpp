@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 #include <thread>
 
@@ -18,6 +17,7 @@
 #include "drape/scene/scene.hpp"
 #include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/simulation.hpp"
 #include "run/run_scene.hpp"
 #include "sim/stability.hpp"
@@ -424,8 +424,7 @@ std::string stability_runs(const StabilityStudy& study, const Shard& shard) {
 MergedStability merge_stability(const std::vector<std::filesystem::path>& files) {
   constexpr std::size_t most_bytes = std::size_t{1} << 31;
   MergedStability merged;
-  std::map<std::size_t, std::string> found;  // shard numbers and their files
-  std::size_t count = 0;
+  FoundShards found("study");
   for (const std::filesystem::path& path : files) {
     std::vector<RunsRecord> records = parse_runs(read_text(path, most_bytes), shown(path));
     if (records.empty()) throw UsageError(fmt::format("{}: there is nothing in it", shown(path)));
@@ -436,23 +435,14 @@ MergedStability merge_stability(const std::vector<std::filesystem::path>& files)
       throw UsageError(fmt::format("{} was made by {}, but this is {}: one study is made by one program", shown(path),
                                    heading.program, studying_program()));
     }
-    if (found.empty()) {
-      merged.study = plan_stability(heading.detail);
-      count = shard.count;
-    }
-    const StabilityDetail& detail = merged.study.detail;
-    if (shard.count != count || heading.detail.per_decade != detail.per_decade ||
-        heading.detail.steps != detail.steps) {
-      throw UsageError(fmt::format("{} and {} are not of one study", shown(path), found.begin()->second));
-    }
-    if (!found.try_emplace(shard.number, path.string()).second) continue;
+    if (found.empty()) merged.study = plan_stability(heading.detail);
+    if (heading.detail != merged.study.detail) found.fail_as_other(path);
+    if (!found.add(shard, path)) continue;
     merged.study.seconds += heading.seconds;
     for (std::size_t i = 1; i < records.size(); ++i) read_part(records[i], merged.study);
     for (const RunsRecord& record : records) record.done();
   }
-  for (std::size_t k = 1; k <= count; ++k) {
-    if (!found.contains(k)) merged.missing.push_back({k, count});
-  }
+  merged.missing = found.missing();
   return merged;
 }
 

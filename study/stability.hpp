@@ -68,6 +68,8 @@ struct StabilityLimit {
 struct StabilityDetail {
   int per_decade = 3;  ///< numbers of step lengths and of stiffnesses
   int steps = 100;     ///< steps per cell
+
+  bool operator==(const StabilityDetail&) const = default;
 };
 
 struct StabilityStudy {

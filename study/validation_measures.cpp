@@ -540,31 +540,25 @@ ValidationStudy validation_study(const std::filesystem::path& file) {
 
 MergedValidation merge_validation(const std::vector<std::filesystem::path>& files) {
   MergedValidation merged;
-  std::map<std::size_t, std::string> found;  // shard numbers and their files
-  std::size_t count = 0;
+  FoundShards found("study");
   for (const std::filesystem::path& file : files) {
     ValidationStudy part = validation_study(file);
+    std::vector<ValidationRun> runs = std::exchange(part.runs, {});
+    const double seconds = std::exchange(part.seconds, 0);
     const Shard shard = part.shard;
-    if (found.empty()) {
-      count = shard.count;
-    } else if (shard.count != count || part.command != merged.study.command) {
-      throw UsageError(fmt::format("{} and {} are not of one study", shown(file), shown(found.begin()->second)));
-    }
-    if (!found.try_emplace(shard.number, file.string()).second) continue;
-    std::vector<ValidationRun> runs = std::move(merged.study.runs);
-    runs.insert(runs.end(), part.runs.begin(), part.runs.end());
-    const double seconds = merged.study.seconds + part.seconds;
-    if (found.size() == 1) merged.study = std::move(part);
-    merged.study.runs = std::move(runs);
-    merged.study.seconds = seconds;
+    if (found.empty())
+      merged.study = std::move(part);
+    else if (part.command != merged.study.command)
+      found.fail_as_other(file);
+    if (!found.add(shard, file)) continue;
+    merged.study.seconds += seconds;
+    std::ranges::move(runs, std::back_inserter(merged.study.runs));
   }
   std::ranges::stable_sort(merged.study.runs, {}, &ValidationRun::place);
   for (ValidationRun& run : merged.study.runs) run.place.reset();
   merged.study.shard = {};
   merged.study.typed_command.clear();  // each shard has its own
-  for (std::size_t k = 1; k <= count; ++k) {
-    if (!found.contains(k)) merged.missing.push_back({k, count});
-  }
+  merged.missing = found.missing();
   return merged;
 }
 

@@ -15,13 +15,6 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* shard_prefix = "shard-";
-
-bool is_part(const fs::path& folder, const char* mark) {
-  std::error_code ignored;
-  return fs::exists(folder / mark, ignored);
-}
-
 /// @throws UsageError that names the difference of two plans
 void require_same(const SweepPlan& plan, const fs::path& from, const SweepPlan& first, const fs::path& first_from) {
   if (plan.program != first.program) {
@@ -62,31 +55,6 @@ void take_over(const fs::path& from, const fs::path& to) {
   fs::remove_all(hidden, ignored);
   throw OutputError(fmt::format("cannot write {}: {}", shown(to), error.message()));
 }
-
-}  // namespace
-
-fs::path shard_place(const fs::path& folder, const Shard& shard) {
-  return shard.whole() ? folder : folder / fmt::format("{}{}-of-{}", shard_prefix, shard.number, shard.count);
-}
-
-std::vector<fs::path> parts_in(const fs::path& folder, const char* mark) {
-  std::vector<fs::path> found;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().filename().string().starts_with(shard_prefix) && is_part(entry.path(), mark)) {
-      found.push_back(entry);
-    }
-  }
-  if (error == std::errc::not_a_directory) {
-    throw UsageError(fmt::format("{}: this is a file; expected a folder with shards", shown(folder)));
-  }
-  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", shown(folder), error.message()));
-  std::ranges::sort(found);
-  if (found.empty() && is_part(folder, mark)) found.push_back(folder);
-  return found;
-}
-
-namespace {
 
 /// The state of a run in a folder, from worst to best.
 enum class Found { damaged, unsettled, settled };

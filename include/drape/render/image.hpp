@@ -64,6 +64,9 @@ std::optional<ImageSize> size_in_header(std::span<const unsigned char> bytes);
 /// @throws std::invalid_argument if the pictures have different sizes
 Image montage(const std::vector<const Image*>& pictures, int columns, int gap, std::uint8_t gray);
 
+/// Appends a picture of the same width below another.
+void append_below(Image& upper, const Image& lower);
+
 /// Largest width and height of a texture in llvmpipe [pixels].
 constexpr int largest_texture = 16384;
 
