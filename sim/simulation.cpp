@@ -50,7 +50,6 @@ class Simulation::Motion {
   StepForces forces;
   std::unique_ptr<StabilityGuard> guard;
   std::unique_ptr<Scheme> scheme;
-  SpringNetwork springs;
   Eigen::VectorXd per_vertex;        // scratch for energies(), to avoid allocations
   Vertices ignored;                  // scratch for energies(): an unused gradient
   StabilityGuard::EnergyNow energy;  // K + E
@@ -66,7 +65,6 @@ class Simulation::Motion {
         forces(*system, state),
         guard(make_asked_guard(settings, *system)),
         scheme(make_scheme()),
-        springs(system->springs, settings.cloth.vertex_count(), threads),
         energy([this] {
           const Energies now = energies();
           return now.kinetic + now.elastic;
@@ -151,7 +149,7 @@ void Simulation::Motion::restore(const Simulation::Checkpoint& checkpoint) {
 Energies Simulation::Motion::energies() {
   const Eigen::VectorXd& m = settings.cloth.masses;
   ignored.setZero(state.x.rows(), 3);
-  double elastic = springs.add_value_gradient(state.x, ignored);
+  double elastic = system->network().add_value_gradient(state.x, ignored);
   for (const auto& one : system->energies) {
     if (one->stored()) elastic += one->add_gradient(state.x, time(), ignored);
   }

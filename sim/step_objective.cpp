@@ -17,7 +17,7 @@ constexpr double units = 4;  // number of roundings in a term of the energy or i
 StepObjective::StepObjective(const System& system, double duration)
     : system_(system),
       duration_(duration),
-      springs_(system.springs, system.cloth.vertex_count(), system.threads),
+      springs_(system.network()),
       inertia_(system.inertia(duration)),
       free_inertia_(inertia_),
       push_(inertia_.cwiseInverse()),

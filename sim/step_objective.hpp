@@ -79,7 +79,7 @@ class StepObjective {
  private:
   const System& system_;
   double duration_;
-  SpringNetwork springs_;
+  const SpringNetwork& springs_;
   Eigen::VectorXd inertia_, free_inertia_;
   Eigen::VectorXd push_;  // τ²/m, 0 on pins [m/N]
   Eigen::ArrayXd free_;   // 1, and 0 on pins

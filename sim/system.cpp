@@ -18,6 +18,11 @@ constexpr int most_turns = 4;  // of filters that undo each other's changes
 
 }  // namespace
 
+const SpringNetwork& System::network() const {
+  if (!network_) network_ = std::make_unique<SpringNetwork>(springs, cloth.vertex_count(), threads);
+  return *network_;
+}
+
 StiffnessBound System::stiffness_bound() const {
   StiffnessBound bound{.springs = springs, .vertices = Eigen::VectorXd::Zero(cloth.vertex_count())};
   for (const auto& energy : energies) energy->add_bound(bound);

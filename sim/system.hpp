@@ -15,6 +15,7 @@
 #include "sim/bending/curvature.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/parallel/threads.hpp"
+#include "sim/spring_network.hpp"
 
 namespace drape {
 
@@ -198,6 +199,10 @@ struct System {
   System(const Cloth& c, double h, const Threads& by = one_thread())
       : cloth(c), step(h), whole_step(h), threads(by), springs(c.springs) {}
 
+  /// Returns the springs in the layout of their passes, made at the first call. Schemes and energies share it, on one
+  /// thread.
+  [[nodiscard]] const SpringNetwork& network() const;
+
   /// Returns an upper bound on all Hessians: of the springs, then of the energies in order.
   [[nodiscard]] StiffnessBound stiffness_bound() const;
 
@@ -268,6 +273,8 @@ struct System {
  private:
   /// Lets every filter change the velocities of the move from state.x, and records the restraint in the state.
   void filter(State& state, Vertices& way) const;
+
+  mutable std::unique_ptr<const SpringNetwork> network_;
 };
 
 /// Returns the system of all that acts on the cloth with these settings. It refers to the settings and the threads,

@@ -41,7 +41,7 @@ int even_share(std::int64_t left, int most) {
 
 SemiImplicitEuler::SemiImplicitEuler(const System& system)
     : system_(system),
-      springs_(system.springs, system.cloth.vertex_count(), system.threads),
+      springs_(system.network()),
       pull_(explicit_pull(system)),
       decay_(system.decay(system.step)),
       alike_(decay_ && acts_alike(system)) {
@@ -95,7 +95,7 @@ bool depends_on_velocities(const System& system) {
 
 Verlet::Verlet(const System& system)
     : system_(system),
-      springs_(system.springs, system.cloth.vertex_count(), system.threads),
+      springs_(system.network()),
       pull_(explicit_pull(system)),
       half_decay_(system.decay(system.step / 2)),
       alike_(half_decay_ && acts_alike(system)) {

@@ -32,7 +32,7 @@ class SemiImplicitEuler final : public Scheme {
 
  private:
   const System& system_;
-  SpringNetwork springs_;
+  const SpringNetwork& springs_;
   Eigen::VectorXd pull_;         // −h/m of each vertex, 0 on pins [s/kg]
   std::optional<double> decay_;  // see System::decay
   bool alike_;                   // steps have nothing but springs, constant forces and that decay
@@ -75,7 +75,7 @@ class Verlet final : public Scheme {
   void add_of_velocity(State& state, double time, StepForces& forces);
 
   const System& system_;
-  SpringNetwork springs_;
+  const SpringNetwork& springs_;
   Eigen::VectorXd pull_;              // −h/m of each vertex, 0 on pins [s/kg]
   std::optional<double> half_decay_;  // of half a step, see System::decay
   bool alike_;                        // steps have nothing but springs, constant forces and that decay
