@@ -116,6 +116,7 @@ int main(int argc, char** argv) {
   for (std::string& name : drawing) effects.push_back(std::move(name));
   std::vector<std::string> encoding = drape::register_encoding();
   std::vector<std::string> factoring = drape::register_factoring();
+  std::vector<std::string> supernodal = drape::register_supernodal_factoring();
 
   // Defaults come first, so that the caller's flags override them.
   std::vector<std::string> defaults{"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=11"};
@@ -132,7 +133,8 @@ int main(int argc, char** argv) {
                                  {.first = "drape", .second = "xpbd", .cases = std::move(peers)},
                                  {.first = "with", .second = "without", .cases = std::move(effects)},
                                  {.first = "drape", .second = "ffmpeg", .cases = std::move(encoding)},
-                                 {.first = "fronts", .second = "cholmod", .cases = std::move(factoring)}});
+                                 {.first = "fronts", .second = "cholmod", .cases = std::move(factoring)},
+                                 {.first = "fronts", .second = "supernodal", .cases = std::move(supernodal)}});
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
 }

@@ -1,6 +1,8 @@
 #include "bench/time_schemes.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/CholmodSupport>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -282,16 +284,37 @@ Subject make_cholmod(int cells) {
               }};
 }
 
-}  // namespace
+/// CHOLMOD's supernodal factor, on the BLAS that the system has.
+Subject make_supernodal(int cells) {
+  const ClothMatrix made(cells);
+  const auto matrix = std::make_shared<Eigen::SparseMatrix<double>>(Eigen::Map<const Eigen::SparseMatrix<double>>(
+      made.pattern.size(), made.pattern.size(), made.pattern.entries(), made.pattern.starts.data(),
+      made.pattern.rows.data(), made.values.data()));
+  return {.restore = [] {},
+          .run =
+              [matrix] {
+                const Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor(*matrix);
+                return factor.info() == Eigen::Success ? 1 : 0;
+              }};
+}
 
-std::vector<std::string> register_factoring() {
+/// Registers the fronts beside another factor of the same matrices.
+std::vector<std::string> register_factoring(const std::string& name, const std::string& other, Subject (*make)(int)) {
   std::vector<std::string> names;
   for (const int cells : {100, 300}) {
-    names.push_back(fmt::format("factor/{}", cells));
+    names.push_back(fmt::format("{}/{}", name, cells));
     register_subject(names.back(), "fronts", 1, [cells] { return make_fronts(cells); });
-    register_subject(names.back(), "cholmod", 1, [cells] { return make_cholmod(cells); });
+    register_subject(names.back(), other, 1, [make, cells] { return make(cells); });
   }
   return names;
+}
+
+}  // namespace
+
+std::vector<std::string> register_factoring() { return register_factoring("factor", "cholmod", make_cholmod); }
+
+std::vector<std::string> register_supernodal_factoring() {
+  return register_factoring("supernodal_factor", "supernodal", make_supernodal);
 }
 
 }  // namespace drape

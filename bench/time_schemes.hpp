@@ -21,4 +21,7 @@ std::vector<std::string> register_equal_accuracy();
 /// dissection and dense fronts, and CASE/cholmod, its simplicial factor. Returns the names of the cases.
 std::vector<std::string> register_factoring();
 
+/// Registers it beside CHOLMOD's supernodal factor, "fronts" and "supernodal".
+std::vector<std::string> register_supernodal_factoring();
+
 }  // namespace drape
