@@ -31,8 +31,9 @@ TEST(Animation, HasAPanelForEachMotionAndAFrameForEachMoment) {
   const auto animation = animate_errors(scene, to_rounding(scene.simulation, Method::implicit), panels, gif_file,
                                         GlBackend::automatic, {}, progress);
   ASSERT_TRUE(animation);
-  EXPECT_EQ(animation->gif.size(), std::filesystem::file_size(gif_file));
-  EXPECT_EQ(test::decoded_picture(animation->stills).cols, 2 * (2 * 340 + 6) + 6);  // four of the five, in two rows
+  EXPECT_EQ(animation->film.gif.size(), std::filesystem::file_size(gif_file));
+  EXPECT_EQ(test::decoded_picture(animation->film.stills).cols,
+            2 * (2 * 340 + 6) + 6);  // four of the five, in two rows
   const test::GifFile gif = test::read_gif(gif_file);
   EXPECT_EQ(gif.delays.size(), 5U);  // 0 to 0.4 s, 10 a second
   EXPECT_EQ(gif.width, 2 * 340 + 6);
