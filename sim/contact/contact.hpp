@@ -100,6 +100,8 @@ class ContactSource {
   /// @param held   contacts of this source with a nonzero force, sorted by key
   virtual void find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
                     std::vector<ContactConstraint>& contacts) = 0;
+  /// Returns true if the cloth may begin too near or on the wrong side, from where the contacts' forces bring it back.
+  [[nodiscard]] virtual bool separates() const { return false; }
 };
 
 /// Positions of consecutive vertices, relative to a surface [m].

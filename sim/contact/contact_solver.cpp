@@ -410,14 +410,17 @@ void ContactSolver::retreat(ContactProblem& problem, Iterate& point) {
   point.value = problem.evaluate(point.x, point.gradient);
 }
 
+double ContactSolver::separating_work(const ContactConstraint& contact, const Eigen::Vector3d& force) const {
+  if (!system_.contacts[static_cast<Index>(contact.key.source)]->separates()) return 0;
+  return force.dot(contact.normal) * std::max(0.0, contact.distance - contact.start.dot(contact.normal));
+}
+
 double ContactSolver::work(const Vertices& x, bool converged) const {
   double work = 0;
   for (const ContactConstraint& contact : contacts_) {
     const Eigen::Vector3d force = respond(contact, x).force;
-    const double missing = std::max(0.0, contact.distance - contact.start.dot(contact.normal));
     const double by_force = force.dot(contact.place(x) - contact.start);
-    const double explained = converged ? by_force : std::min(by_force, force.dot(contact.normal) * missing);
-    work += explained - force.dot(contact.carried);
+    work += (converged ? by_force : std::min(by_force, separating_work(contact, force))) - force.dot(contact.carried);
   }
   return work;
 }

@@ -49,8 +49,7 @@ class ContactSolver {
   void choose_start(ContactProblem& problem, const Vertices& steady, Iterate& point);
 
   /// Returns the work of the contacts on a cloth that moves from the start of the step to x, by their forces at x [J].
-  /// It consists of the work of moving obstacles and of separating features that were too near. Any excess in an
-  /// unconverged step would create energy and is left out.
+  /// An unconverged step gets energy only from moving obstacles, and where a source separates what begins too near.
   [[nodiscard]] double work(const Vertices& x, bool converged) const;
 
   /// Returns true if contacts stop a cloth from moving straight to `target`, or if it starts in contact.
@@ -104,6 +103,8 @@ class ContactSolver {
   /// flight. Stiffer cloth keeps its solved position and only receives the rebound speed.
   [[nodiscard]] bool flies_freely(const ContactConstraint& contact) const;
   void give_velocity(const ContactConstraint& contact, const Eigen::Vector3d& change, Vertices& v) const;
+  /// Returns the work of a force that separates features which began too near, if their source does [J].
+  [[nodiscard]] double separating_work(const ContactConstraint& contact, const Eigen::Vector3d& force) const;
   /// Returns the largest residual of a contact at x [m].
   [[nodiscard]] double slack(const Vertices& x) const;
 

@@ -54,6 +54,7 @@ class SurfaceContacts final : public ContactSource {
     near_ = 2 * terms_.distance + to_.margin();
   }
 
+  [[nodiscard]] bool separates() const override { return terms_.separate; }
   void find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
             std::vector<ContactConstraint>& contacts) override {
     auto known = held.begin();
@@ -137,6 +138,7 @@ class SelfContacts final : public ContactSource {
   void begin(const Vertices& x, double start, double end) override;
   void find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
             std::vector<ContactConstraint>& contacts) override;
+  [[nodiscard]] bool separates() const override { return terms_.separate; }
 
  private:
   /// Returns true if the candidates cover this step: all vertices are near the positions predicted in their search.
@@ -181,6 +183,7 @@ class BodyContacts final : public ContactSource {
   void begin(const Vertices& x, double start, double end) override;
   void find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
             std::vector<ContactConstraint>& contacts) override;
+  [[nodiscard]] bool separates() const override { return terms_.separate; }
 
  private:
   /// Makes the search structures; called by the first step, as many systems make none.

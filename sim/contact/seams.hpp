@@ -17,6 +17,7 @@ class SeamContacts final : public ContactSource {
   void begin(const Vertices& x, double start, double end) override;
   void find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
             std::vector<ContactConstraint>& contacts) override;
+  [[nodiscard]] bool separates() const override { return true; }  // a seam may begin open
 
  private:
   const Cloth& cloth_;
