@@ -34,7 +34,7 @@ Json to_json(const WindowResult& window) {
           {"first", to_json(window.first)},
           {"largest", to_json(window.largest)},
           {"deviations", std::move(deviations)},
-          {"problem", window.problem}};
+          {"problem", window.problem ? describe_problem(*window.problem) : ""}};
 }
 
 /// Returns the JSON of a frame; `prefix` distinguishes the files of an end-to-end comparison.

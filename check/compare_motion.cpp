@@ -71,14 +71,16 @@ class Collector {
     if (hash == golden.hash) return;
     note_other_bits(step);
     if (bodies.size() != golden.bodies.size()) {
-      return fail(fmt::format("at step {} the pins or obstacles differ", step));
+      return fail({.fault = WindowFault::other_bodies, .step = step, .of = {}});
     }
     std::size_t worst = 0;
     const auto distance = [&](std::size_t i) { return std::abs(bodies[i] - golden.bodies[i]); };
     for (std::size_t i = 1; i < bodies.size(); ++i) worst = distance(i) > distance(worst) ? i : worst;
     if (bodies.empty() || distance(worst) <= tolerance_ + golden_.quanta.compared) return;
-    fail(fmt::format("at step {} {} is {} from its golden position", step, body_name(simulation, worst),
-                     readable_length(distance(worst))));
+    fail({.fault = WindowFault::moved_body,
+          .step = step,
+          .of = body_name(simulation, worst),
+          .actual = distance(worst)});
   }
 
   void add_middle(const Vertices& x) {
@@ -94,8 +96,8 @@ class Collector {
   }
 
   /// Stores the first problem only.
-  void fail(std::string problem) {
-    if (result.problem.empty()) result.problem = std::move(problem);
+  void fail(WindowProblem problem) {
+    if (!result.problem) result.problem = std::move(problem);
     result.verdict = MotionVerdict::changed;
   }
 
@@ -133,7 +135,11 @@ class Collector {
     Eigen::Index vertex = 0;
     const double speed = std::sqrt((actual.v - golden.v).rowwise().squaredNorm().maxCoeff(&vertex));
     if (speed == 0 || (tolerance_ > 0 && speed * seconds <= tolerance_)) return;
-    fail(fmt::format("the velocity at step {} changed by {:.3g} m/s at vertex {}", actual.step, speed, vertex));
+    fail({.fault = WindowFault::velocity,
+          .step = actual.step,
+          .vertex = static_cast<int>(vertex),
+          .of = {},
+          .actual = speed});
   }
 
   void add_energies(const Energies& actual) {
@@ -143,8 +149,11 @@ class Collector {
         std::max({std::abs(actual.kinetic - golden.kinetic), std::abs(actual.gravity - golden.gravity),
                   std::abs(actual.elastic - golden.elastic)});
     if (difference <= energy_rounding * scale) return;
-    fail(fmt::format("the energies of step {} changed, the motion did not: {:.9g} J in total, {:.9g} J in the golden",
-                     window_.last_step(), actual.total(), golden.total()));
+    fail({.fault = WindowFault::energies,
+          .step = window_.last_step(),
+          .of = {},
+          .actual = actual.total(),
+          .golden = golden.total()});
   }
 
   const Golden& golden_;
@@ -167,7 +176,7 @@ WindowResult compare_window(Simulation& simulation, const State& initial, const 
     });
     collector.end(simulation.state(), simulation.energies());
   } catch (const DivergedError& diverged) {
-    collector.fail(diverged.what());
+    collector.fail({.fault = WindowFault::diverged, .of = diverged.what()});
   }
   return std::move(collector.result);
 }
@@ -227,6 +236,26 @@ std::vector<WindowPositions> rerun_window(const SimulationSettings& settings, co
   return positions;
 }
 
+std::string describe_problem(const WindowProblem& problem) {
+  switch (problem.fault) {
+    case WindowFault::diverged:
+      return problem.of;
+    case WindowFault::other_bodies:
+      return fmt::format("at step {} the pins or obstacles differ", problem.step);
+    case WindowFault::moved_body:
+      return fmt::format("at step {} {} is {} from its golden position", problem.step, problem.of,
+                         readable_length(problem.actual));
+    case WindowFault::velocity:
+      return fmt::format("the velocity at step {} changed by {:.3g} m/s at vertex {}", problem.step, problem.actual,
+                         problem.vertex);
+    case WindowFault::energies:
+      return fmt::format(
+          "the energies of step {} changed, the motion did not: {:.9g} J in total, {:.9g} J in the golden",
+          problem.step, problem.actual, problem.golden);
+  }
+  return {};
+}
+
 std::string describe_motion(const std::vector<WindowResult>& windows) {
   const WindowResult* first = nullptr;
   const Deviation* largest = nullptr;
@@ -239,8 +268,8 @@ std::string describe_motion(const std::vector<WindowResult>& windows) {
   }
   if (first == nullptr) return {};
   if (!first->first || largest == nullptr) {
-    return first->problem.empty() ? fmt::format("the bits of the motion changed at step {}", *first->other_bits)
-                                  : first->problem;
+    return first->problem ? describe_problem(*first->problem)
+                          : fmt::format("the bits of the motion changed at step {}", *first->other_bits);
   }
   std::string text = fmt::format("the motion changed at step {} by {} at vertex {}", first->first->step,
                                  readable_length(first->first->distance), first->first->vertex);
@@ -249,7 +278,7 @@ std::string describe_motion(const std::vector<WindowResult>& windows) {
     text += fmt::format(", and by up to {} at vertex {} at step {}", readable_length(largest->distance),
                         largest->vertex, largest->step);
   }
-  if (!first->problem.empty()) text += "; " + first->problem;
+  if (first->problem) text += "; " + describe_problem(*first->problem);
   return text;
 }
 

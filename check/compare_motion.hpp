@@ -51,6 +51,9 @@ struct WindowPositions {
 /// Returns the compared steps of a window after a new simulation; fewer if it diverges.
 std::vector<WindowPositions> rerun_window(const SimulationSettings& settings, const Golden& golden, std::size_t window);
 
+/// Returns "at step 37 the sphere is 2.1 mm from its golden position", or the like for another fault.
+std::string describe_problem(const WindowProblem& problem);
+
 /// Returns "the motion changed at step 37 by up to 2.1 mm at vertex 213"; empty if it did not change.
 std::string describe_motion(const std::vector<WindowResult>& windows);
 

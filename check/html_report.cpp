@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "check/compare_motion.hpp"
 #include "check/name_difference.hpp"
 #include "check/picture.hpp"
 #include "core/build_info.hpp"
@@ -172,11 +173,11 @@ Markup windows_table(const Comparison& comparison) {
                      {"Remark"}},
                     {}};
   for (const WindowResult& w : comparison.windows) {
-    table.rows.push_back({fmt::format("{}–{}", w.first_step, w.last_step), verdict_badge(w.verdict),
-                          w.other_bits ? fmt::format("{}", *w.other_bits) : "–",
-                          readable_length(w.largest ? w.largest->distance : 0),
-                          w.largest ? fmt::format("{}", w.largest->vertex) : "–",
-                          w.largest ? fmt::format("{}", w.largest->step) : "–", w.problem});
+    table.rows.push_back(
+        {fmt::format("{}–{}", w.first_step, w.last_step), verdict_badge(w.verdict),
+         w.other_bits ? fmt::format("{}", *w.other_bits) : "–", readable_length(w.largest ? w.largest->distance : 0),
+         w.largest ? fmt::format("{}", w.largest->vertex) : "–", w.largest ? fmt::format("{}", w.largest->step) : "–",
+         w.problem ? describe_problem(*w.problem) : ""});
   }
   return html::table(table);
 }

@@ -158,6 +158,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PictureDifference, verdict, pixels, fraction,
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrameResult, frame, time, why, judged, difference, kind, expected, actual, amplified,
                                    flip_map)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Deviation, step, vertex, distance)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WindowProblem, fault, step, vertex, of, actual, golden)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WindowResult, first_step, last_step, verdict, other_bits, deviations, first, largest,
                                    problem)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Comparison, motion, picture, windows, frames, first_bad_frame)
@@ -216,8 +217,9 @@ bool is_one_of(Enumeration value, Enumeration last) {
 
 bool is_sound(const Comparison& comparison) {
   const auto sound_window = [](const WindowResult& window) {
-    const bool explained = window.verdict != MotionVerdict::changed || !window.problem.empty();
-    return is_one_of(window.verdict, MotionVerdict::changed) && (window.other_bits || (explained && !window.first));
+    const bool explained = window.verdict != MotionVerdict::changed || window.problem;
+    return is_one_of(window.verdict, MotionVerdict::changed) && (window.other_bits || (explained && !window.first)) &&
+           (!window.problem || is_one_of(window.problem->fault, WindowFault::energies));
   };
   const auto sound_frame = [](const FrameResult& frame) {
     return frame.frame >= 0 && is_one_of(frame.difference.verdict, PictureVerdict::changed);

@@ -135,6 +135,18 @@ struct Deviation {
   double distance = 0;  ///< [m]
 };
 
+/// A change of a window other than positions beyond the tolerance.
+enum class WindowFault { diverged, other_bodies, moved_body, velocity, energies };
+
+/// Such a change, and the values that show it.
+struct WindowProblem {
+  WindowFault fault = WindowFault::diverged;
+  std::int64_t step = 0;
+  int vertex = 0;                 ///< of a velocity
+  std::string of;                 ///< the moved body, or the message of a divergence
+  double actual = 0, golden = 0;  ///< distance of a body [m], speed of a velocity's change [m/s], total energies [J]
+};
+
 /// A window of the motion, simulated from a golden state.
 struct WindowResult {
   std::int64_t first_step = 0, last_step = 0;
@@ -143,7 +155,7 @@ struct WindowResult {
   std::vector<Deviation> deviations;       ///< largest deviation in each compared step; fewer after a divergence
   std::optional<Deviation> first;          ///< first deviation beyond the tolerance
   std::optional<Deviation> largest;        ///< largest of all deviations; absent if there is none
-  std::string problem;                     ///< a sentence on other problems, such as a divergence or a moved body
+  std::optional<WindowProblem> problem;    ///< the first other change
 };
 
 /// The motion and pictures of a scene compared with its golden.

@@ -34,7 +34,7 @@ CheckReport report_of(const std::string& name) {
     scene.size = {64, 48};
     scene.windows.motion = passed ? MotionVerdict::same_bits : MotionVerdict::changed;
     WindowResult window;
-    window.problem = name;
+    window.problem = {.fault = WindowFault::moved_body, .of = name};
     window.verdict = scene.windows.motion;
     scene.windows.windows = {window};
     report.scenes.push_back(scene);
