@@ -270,7 +270,7 @@ struct Examples {
   std::string_view lines;    ///< text after "drape", one line per example
 };
 
-constexpr std::array<Examples, 24> all_examples{{
+constexpr auto all_examples = std::to_array<Examples>({
     {"",
      "new flag\n"
      "render flag.toml\n"
@@ -349,7 +349,7 @@ constexpr std::array<Examples, 24> all_examples{{
     {"help",
      "help render\n"
      "help study accuracy\n"},
-}};
+});
 
 /// Returns the subcommand of this name, such as "study accuracy", or null.
 CLI::App* find_subcommand(CLI::App& app, std::string_view name) {
