@@ -129,7 +129,7 @@ double estimated_cost(const Scene& scene, const RunOptions& options) {
   const auto steps = static_cast<double>(options.steps.value_or(scene.step_count()));
   const SimulationSettings& s = scene.simulation;
   const double substeps = s.accuracy ? 8 : 1;
-  const double stages = is_explicit(s.integrator.method) || s.integrator.scheme == TimeScheme::backward_euler ? 1 : 2;
+  const double stages = is_explicit(s.integrator.method) ? 1 : traits_of(s.integrator.scheme).stages;
   const Method method = s.integrator.method;
   const double each =
       estimated_step(s, method, s.integrator.substep_count(), usual_stiffness) + estimated_contact(s, method);

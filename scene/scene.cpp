@@ -86,9 +86,11 @@ class Checks {
                       key));
     }
     const bool given = find_path(document_, "integrator.scheme") != nullptr;
-    if (given && scene_.simulation.integrator.scheme == TimeScheme::backward_euler) {
+    const TimeScheme scheme = scene_.simulation.integrator.scheme;
+    if (given && scheme != TimeScheme::sdirk2) {
       add("integrator", "scheme",
-          "scheme: an accuracy in [time] is reached with \"sdirk2\": omit \"backward-euler\", or the accuracy");
+          fmt::format("scheme: an accuracy in [time] is reached with \"sdirk2\": omit \"{}\", or the accuracy",
+                      scheme_name(scheme)));
     }
   }
 

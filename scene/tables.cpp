@@ -107,9 +107,10 @@ Keys integrator_keys(IntegratorSettings& integrator) {
       "How a step is computed. Auto: verlet in substeps, or quasi-newton where that is cheaper, see "
       "[command-line.md](command-line.md#methods). Explicit: semi-implicit, verlet. Implicit: implicit (Newton), "
       "liu13, quasi-newton.");
+  std::string schemes;
+  for (const SchemeTraits& scheme : scheme_traits) schemes.append(schemes.empty() ? "" : ", or ").append(scheme.title);
   keys.choice("scheme", integrator.scheme, {scheme_names.begin(), scheme_names.end()},
-              "Time integration of the implicit methods: backward Euler, first-order, or SDIRK2 (Alexander 1977), "
-              "second-order.");
+              "Time integration of the implicit methods: " + schemes + ".");
   keys.choice("stop", integrator.stop, {stopping_rule_names.begin(), stopping_rule_names.end()},
               "Quantity that must fall below `tolerance` to end a step: the norm of an iteration's change (m), of the "
               "unbalanced force (N), or the [estimated error](../notes/accuracy.md#stopping-at-an-error) (m). Default: "

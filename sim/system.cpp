@@ -6,7 +6,7 @@
 #include "sim/contact/impulse_contact.hpp"
 #include "sim/contact/seams.hpp"
 #include "sim/parallel/vectors.hpp"
-#include "sim/schemes/sdirk2.hpp"
+#include "sim/schemes/registry.hpp"
 #include "sim/step_dissipation.hpp"
 #include "sim/timed_effects.hpp"
 #include "sim/velocity_field.hpp"
@@ -101,7 +101,7 @@ namespace {
 /// Adds the energy for velocity fields in implicit steps.
 void add_drag(const IntegratorSettings& integrator, System& system) {
   if (system.fields.empty() || is_explicit(integrator.method)) return;
-  const double solved = integrator.scheme == TimeScheme::sdirk2 ? Sdirk2::gamma * system.step : system.step;
+  const double solved = minimised_fraction(integrator.scheme) * system.step;
   auto drag = std::make_unique<FieldDrag>(system, solved, integrator.method == Method::liu13);
   system.drag = drag.get();
   system.energies.push_back(std::move(drag));
@@ -110,7 +110,7 @@ void add_drag(const IntegratorSettings& integrator, System& system) {
 /// Adds the energies for dashpots in implicit steps.
 void add_dissipations(const IntegratorSettings& integrator, System& system) {
   if (is_explicit(integrator.method)) return;
-  const double shortest = integrator.scheme == TimeScheme::sdirk2 ? Sdirk2::gamma * system.step : system.step;
+  const double shortest = minimised_fraction(integrator.scheme) * system.step;
   for (const auto& dashpots : system.dashpots) {
     auto dissipation = std::make_unique<StepDissipation>(dashpots, shortest, system.cloth.positions, system.threads);
     system.dissipations.push_back(dissipation.get());

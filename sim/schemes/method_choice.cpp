@@ -123,7 +123,7 @@ std::optional<Method> shared_method(std::span<const MethodChoice> choices) {
 std::optional<Method> implied_method(const IntegratorSettings& integrator) {
   if (integrator.linear_solver != LinearSolver::automatic) return Method::implicit;
   const bool solved = integrator.stop || integrator.tolerance || integrator.max_iterations;
-  return solved || integrator.scheme == TimeScheme::sdirk2 ? std::optional(Method::quasi_newton) : std::nullopt;
+  return solved || integrator.scheme != TimeScheme::backward_euler ? std::optional(Method::quasi_newton) : std::nullopt;
 }
 
 void MethodChoice::apply(SimulationSettings& settings) const {

@@ -15,6 +15,31 @@
 namespace drape {
 namespace {
 
+/// Factories of a time scheme of the implicit methods.
+struct SchemeType {
+  double minimised;  ///< see minimised_fraction()
+  std::unique_ptr<Scheme> (*make)(const System& system, const MinimisingScheme::MakeSolver& make_solver);
+  std::unique_ptr<StabilityGuard> (*make_guard)(const System& system);
+};
+
+template <class Type, class Guard>
+constexpr SchemeType scheme_row(double minimised) {
+  return {minimised,
+          [](const System& system, const MinimisingScheme::MakeSolver& make_solver) -> std::unique_ptr<Scheme> {
+            return std::make_unique<Type>(system, make_solver);
+          },
+          [](const System& system) -> std::unique_ptr<StabilityGuard> { return std::make_unique<Guard>(system); }};
+}
+
+/// The only list of schemes, in the order of the enumeration.
+constexpr std::array scheme_types{
+    scheme_row<BackwardEuler, ConditionGuard>(1),
+    scheme_row<Sdirk2, Sdirk2Guard>(Sdirk2::gamma),
+};
+static_assert(scheme_types.size() == scheme_traits.size());
+
+const SchemeType& scheme_type(TimeScheme scheme) { return scheme_types.at(static_cast<std::size_t>(scheme)); }
+
 template <class Explicit>
 std::unique_ptr<Scheme> make_explicit(const IntegratorSettings& /*settings*/, const System& system) {
   return std::make_unique<Explicit>(system);
@@ -22,11 +47,9 @@ std::unique_ptr<Scheme> make_explicit(const IntegratorSettings& /*settings*/, co
 
 template <class Solver>
 std::unique_ptr<Scheme> make_implicit(const IntegratorSettings& settings, const System& system) {
-  const auto make_solver = [&](const StepObjective& objective) {
+  return scheme_type(settings.scheme).make(system, [&](const StepObjective& objective) {
     return std::make_unique<Solver>(system, objective, settings);
-  };
-  if (settings.scheme == TimeScheme::sdirk2) return std::make_unique<Sdirk2>(system, make_solver);
-  return std::make_unique<BackwardEuler>(system, make_solver);
+  });
 }
 
 std::unique_ptr<StabilityGuard> make_safe_step_guard(const IntegratorSettings& settings, const System& system) {
@@ -34,8 +57,7 @@ std::unique_ptr<StabilityGuard> make_safe_step_guard(const IntegratorSettings& s
 }
 
 std::unique_ptr<StabilityGuard> make_implicit_guard(const IntegratorSettings& settings, const System& system) {
-  if (settings.scheme == TimeScheme::sdirk2) return std::make_unique<Sdirk2Guard>(system);
-  return std::make_unique<ConditionGuard>(system);
+  return scheme_type(settings.scheme).make_guard(system);
 }
 
 constexpr std::array methods{
@@ -50,6 +72,8 @@ static_assert(methods.size() == method_count);
 }  // namespace
 
 const MethodType& method_type(Method method) { return methods.at(static_cast<std::size_t>(method)); }
+
+double minimised_fraction(TimeScheme scheme) { return scheme_type(scheme).minimised; }
 
 std::unique_ptr<StabilityGuard> make_guard(const SimulationSettings& settings, const System& system) {
   auto guard = method_type(settings.integrator.method).make_guard(settings.integrator, system);

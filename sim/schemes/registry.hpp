@@ -23,6 +23,9 @@ struct MethodType {
 /// Returns the entry of the only list of methods.
 const MethodType& method_type(Method method);
 
+/// Returns the duration of a scheme's shortest minimisation as a fraction of the step.
+double minimised_fraction(TimeScheme scheme);
+
 /// Returns the guard for these settings; with an accuracy, a SubstepGuard.
 std::unique_ptr<StabilityGuard> make_guard(const SimulationSettings& settings, const System& system);
 

@@ -23,9 +23,7 @@ struct Solver {
 
   [[nodiscard]] constexpr bool is_explicit() const { return drape::is_explicit(method); }
   /// Returns true for second-order motions; all others are first-order.
-  [[nodiscard]] constexpr bool second_order() const {
-    return method == Method::verlet || (!is_explicit() && scheme == TimeScheme::sdirk2);
-  }
+  [[nodiscard]] constexpr bool second_order() const { return order_of({method, scheme}) == 2; }
 };
 
 struct NamedMethod : Solver {

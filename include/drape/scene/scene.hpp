@@ -150,15 +150,17 @@ static_assert(method_names.size() == method_count + 1);
 inline std::string method_name(Method method) { return std::string(method_names[static_cast<std::size_t>(method)]); }
 
 /// Names of the schemes in scenes, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 2> scheme_names{"backward-euler", "sdirk2"};
+inline constexpr auto scheme_names = [] {
+  std::array<std::string_view, scheme_traits.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = scheme_traits[i].name;
+  return names;
+}();
 
-inline std::string scheme_name(TimeScheme scheme) {
-  return std::string(scheme_names[static_cast<std::size_t>(scheme)]);
-}
+inline std::string scheme_name(TimeScheme scheme) { return std::string(traits_of(scheme).name); }
 
 /// Returns for example "verlet", "liu13", "liu13-sdirk2".
 inline std::string step_method_name(StepMethod how) {
-  return method_name(how.method) + (how.scheme == TimeScheme::sdirk2 ? "-sdirk2" : "");
+  return method_name(how.method) + (how.scheme == TimeScheme{} ? "" : "-" + scheme_name(how.scheme));
 }
 
 /// Names of the stopping rules in scenes, in the order of the enumeration.

@@ -59,32 +59,54 @@ enum class TimeScheme {
   sdirk2           ///< second order, in two stages (Alexander 1977)
 };
 
+/// Properties of a time scheme.
+struct SchemeTraits {
+  std::string_view name;   ///< in scenes
+  std::string_view title;  ///< in a sentence
+  int order = 1;           ///< of convergence
+  int stages = 1;          ///< minimisations in a step
+};
+
+/// The time schemes, in the order of the enumeration; the first is the default.
+inline constexpr std::array scheme_traits{
+    SchemeTraits{.name = "backward-euler", .title = "backward Euler, first-order"},
+    SchemeTraits{.name = "sdirk2", .title = "SDIRK2 (Alexander 1977), second-order", .order = 2, .stages = 2},
+};
+
+inline constexpr const SchemeTraits& traits_of(TimeScheme scheme) {
+  return scheme_traits[static_cast<std::size_t>(scheme)];
+}
+
 /// A method with its scheme, if it is implicit.
 struct StepMethod {
   Method method = Method::liu13;
   TimeScheme scheme = TimeScheme::backward_euler;
 
   // Implicit: a method alone means backward Euler.
-  constexpr StepMethod(Method m, TimeScheme s = TimeScheme::backward_euler) : method(m), scheme(s) {}
+  constexpr StepMethod(Method m = Method::liu13, TimeScheme s = TimeScheme::backward_euler) : method(m), scheme(s) {}
   bool operator==(const StepMethod&) const = default;
 };
 
-/// All methods with their schemes.
-inline constexpr std::array step_methods{
-    StepMethod{Method::semi_implicit},
-    StepMethod{Method::implicit},
-    StepMethod{Method::liu13},
-    StepMethod{Method::quasi_newton},
-    StepMethod{Method::verlet},
-    StepMethod{Method::implicit, TimeScheme::sdirk2},
-    StepMethod{Method::liu13, TimeScheme::sdirk2},
-    StepMethod{Method::quasi_newton, TimeScheme::sdirk2},
-};
+/// All methods with the first scheme, then the implicit ones with each other scheme.
+inline constexpr auto step_methods = [] {
+  constexpr std::size_t schemes = scheme_traits.size();
+  constexpr auto exists = [](std::size_t k) {
+    return k < method_count || !is_explicit(static_cast<Method>(k % method_count));
+  };
+  constexpr std::size_t count = [&] {
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < schemes * method_count; ++k) n += exists(k) ? 1 : 0;
+    return n;
+  }();
+  std::array<StepMethod, count> all;
+  for (std::size_t k = 0, n = 0; k < schemes * method_count; ++k) {
+    if (exists(k)) all[n++] = {static_cast<Method>(k % method_count), static_cast<TimeScheme>(k / method_count)};
+  }
+  return all;
+}();
 
 /// Returns the order of convergence: the error of a motion falls with this power of the step.
-inline constexpr int order_of(StepMethod how) {
-  return how.method == Method::verlet || how.scheme == TimeScheme::sdirk2 ? 2 : 1;
-}
+inline constexpr int order_of(StepMethod how) { return how.method == Method::verlet ? 2 : traits_of(how.scheme).order; }
 
 /// Maximum number of substeps per step of an explicit method.
 inline constexpr int most_substeps = 1 << 10;
