@@ -574,7 +574,8 @@ namespace drape {
 
 html::ChartSeries method_series(const std::string& name) {
   // Additions to a method's name, such as a source or a scheme, keep its colour and marker, but are dashed.
-  const std::string method = name.substr(0, std::min(name.find(','), name.find("-sdirk2")));
+  std::string method = name.substr(0, name.find(','));
+  for (const std::string_view scheme : scheme_names) method = method.substr(0, method.find("-" + std::string(scheme)));
   const auto* const place = std::find(method_names.begin(), method_names.end(), method);
   html::ChartSeries series{name, {}};
   series.style = static_cast<std::size_t>(place - method_names.begin());

@@ -282,14 +282,9 @@ std::string names_of(const AccuracyParts& parts) {
 AccuracyOptions complete(AccuracyOptions options, const LoadedScene& scene) {
   const double h = scene.simulation.step, duration = scene.duration;
   if (options.methods.empty()) {
-    options.methods = {Method::implicit,
-                       Method::liu13,
-                       Method::quasi_newton,
-                       Method::semi_implicit,
-                       Method::verlet,
-                       {Method::implicit, TimeScheme::sdirk2},
-                       {Method::liu13, TimeScheme::sdirk2},
-                       {Method::quasi_newton, TimeScheme::sdirk2}};
+    options.methods.assign(step_methods.begin(), step_methods.end());
+    const auto first = [](StepMethod how) { return !is_explicit(how.method) && how.scheme == TimeScheme{}; };
+    std::ranges::stable_partition(options.methods, first);
   }
   if (options.tolerances.empty()) options.tolerances = {1, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
   if (options.accuracies.empty()) options.accuracies = {1e-2, 1e-3, 1e-4};

@@ -359,9 +359,10 @@ StepMethod method_called(const RunsRecord& record, const std::string& name) {
 
 template <class Point>
 void read_point(RunsRecord& record, std::vector<Point>& points) {
-  const bool second = record.key.scheme == scheme_name(TimeScheme::sdirk2);
+  const std::string& scheme = record.key.scheme;
+  const bool named = !scheme.empty() && scheme != scheme_name({});
   Point& p = points.emplace_back();
-  p.method = method_called(record, record.key.method + (second ? "-sdirk2" : ""));
+  p.method = method_called(record, record.key.method + (named ? "-" + scheme : ""));
   double setting = 0;
   const char* const end = record.key.setting.data() + record.key.setting.size();
   if (std::from_chars(record.key.setting.data(), end, setting).ptr != end) {
