@@ -195,6 +195,10 @@ std::vector<Trial> nightly_runs() {
 INSTANTIATE_TEST_SUITE_P(Nightly, ObstaclesAtRest, testing::ValuesIn(nightly_runs()),
                          [](const auto& trial) { return trial.param.title(); });
 
+/// The run of the large set whose unfinished steps gained 1.3 % of the energy from contacts that began too near.
+INSTANTIATE_TEST_SUITE_P(Unfinished, ObstaclesAtRest, testing::Values(Trial{.number = 7, .nightly = true}),
+                         [](const auto& trial) { return trial.param.title(); });
+
 TEST(EnergyRuns, OfTheNightCoverAllPairs) {
   using Levels = std::array<std::size_t, 4>;
   std::array<std::array<std::set<std::pair<std::size_t, std::size_t>>, 4>, 4> pairs;
