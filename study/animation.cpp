@@ -214,6 +214,7 @@ std::optional<Animation> animate_errors(const Scene& scene, const SimulationSett
   const Eigen::Vector2i size(picture_width, picture_width * scene.video.size.y() / scene.video.size.x());
   PanelPainter painter(scene, view_of(scene, size, motions), size, backend, pen);
   progress.begin("drawing the animation", "frames", static_cast<std::int64_t>(exact.size()));
+  Image bar;  // the same below every frame
   const auto draw = [&](std::size_t f) {
     if (stop.stop_requested()) throw Interrupted();
     std::vector<Image> pictures;
@@ -223,7 +224,8 @@ std::optional<Animation> animate_errors(const Scene& scene, const SimulationSett
     }
     for (const Image& picture : pictures) list.push_back(&picture);
     Image whole = montage(list, panels.size() == 3 ? 3 : 2, gap, paper);
-    append_below(whole, distance_bar(pen, whole.width));
+    if (bar.width == 0) bar = distance_bar(pen, whole.width);
+    append_below(whole, bar);
     ++progress.done;
     return whole;
   };
