@@ -79,16 +79,13 @@ std::vector<std::filesystem::path> parts_in(const std::filesystem::path& folder,
 }
 
 bool FoundShards::add(const Shard& shard, const std::filesystem::path& file) {
-  if (files_.empty()) {
-    count_ = shard.count;
-    first_ = file;
-  }
+  if (files_.empty()) count_ = shard.count;
   if (shard.count != count_) fail_as_other(file);
   return files_.try_emplace(shard.number, file).second;
 }
 
 void FoundShards::fail_as_other(const std::filesystem::path& file) const {
-  throw UsageError(fmt::format("{} and {} are not of one {}", shown(file), shown(first_), whole_));
+  throw UsageError(fmt::format("{} and {} are not of one {}", shown(file), shown(files_.begin()->second), whole_));
 }
 
 std::vector<Shard> FoundShards::missing() const {

@@ -47,7 +47,7 @@ class FoundShards {
   /// @throws UsageError if the whole has another number of shards
   bool add(const Shard& shard, const std::filesystem::path& file);
 
-  /// @throws UsageError that says that a file is of another whole than the first one
+  /// Throws an error for a file of another whole than the shards so far, at least one. @throws UsageError
   [[noreturn]] void fail_as_other(const std::filesystem::path& file) const;
 
   [[nodiscard]] bool empty() const { return files_.empty(); }
@@ -57,7 +57,6 @@ class FoundShards {
  private:
   std::string whole_;
   std::size_t count_ = 0;
-  std::filesystem::path first_;
   std::map<std::size_t, std::filesystem::path> files_;  // by the shards' numbers
 };
 

@@ -31,7 +31,7 @@ constexpr SchemeType scheme_row(double minimised) {
           [](const System& system) -> std::unique_ptr<StabilityGuard> { return std::make_unique<Guard>(system); }};
 }
 
-/// The only list of schemes, in the order of the enumeration.
+/// The schemes in the order of the enumeration, as scheme_traits.
 constexpr std::array scheme_types{
     scheme_row<BackwardEuler, ConditionGuard>(1),
     scheme_row<Sdirk2, Sdirk2Guard>(Sdirk2::gamma),
