@@ -235,13 +235,14 @@ namespace fs = std::filesystem;
 namespace {
 
 // Blocks as in a motion file: valid length of the growing file and the state; optionally the strain limits' restraint
-// (HELD, PULL), the number of substeps to begin with (CUTS), the stability guard's energies (BOOK) and rows in no block
-// yet; last the times.
+// (HELD, PULL), the forces of contacts (BEAR), the number of substeps to begin with (CUTS), the stability guard's
+// energies (BOOK) and rows in no block yet; last the times.
 constexpr const char* checkpoint_magic = "drape checkpoint 1\n";
 constexpr const char* length_tag = "SIZE";
 constexpr const char* books_tag = "BOOK";
 constexpr const char* held_tag = "HELD";
 constexpr const char* tensions_tag = "PULL";
+constexpr const char* contacts_tag = "BEAR";
 constexpr const char* substeps_tag = "CUTS";
 constexpr const char* times_tag = "TIME";
 
@@ -274,7 +275,7 @@ template <class Numbers>
 Numbers unpack_numbers(std::string_view payload) {
   const std::string bytes = unpack(payload);
   Numbers numbers(bytes.size() / sizeof(typename Numbers::value_type));
-  std::memcpy(numbers.data(), bytes.data(), bytes_of(numbers).size());
+  std::memcpy(static_cast<void*>(numbers.data()), bytes.data(), bytes_of(numbers).size());
   return numbers;
 }
 
@@ -290,7 +291,9 @@ bool is_finite(const ResumePoint& found) {
   const std::optional<EnergyMemory>& books = found.checkpoint.books;
   const bool known =
       !books || (std::isfinite(books->explained) && std::isfinite(books->work) && books->looked_at.allFinite());
-  return known && restraint.acceleration.allFinite() && restraint.tensions.allFinite() &&
+  const auto is_force = [](const ContactForce& contact) { return contact.force.allFinite(); };
+  return known && std::ranges::all_of(found.checkpoint.state.contact_forces, is_force) &&
+         restraint.acceleration.allFinite() && restraint.tensions.allFinite() &&
          std::ranges::all_of(found.microseconds, [](float time) { return std::isfinite(time); });
 }
 
@@ -298,6 +301,7 @@ bool is_finite(const ResumePoint& found) {
 void read_blocks(const BlockReader& blocks, std::uint64_t begin, ResumePoint& found) {
   const MotionHeader& header = found.partial->header();
   Restraint restraint;
+  std::vector<ContactForce> contacts;
   std::int64_t substeps = 0;
   while (begin < blocks.size()) {
     const Block block = blocks.block(begin);
@@ -309,6 +313,8 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, ResumePoint& fo
       restraint.acceleration = vertices_of(unpack(block.payload), header.vertices);
     } else if (block.tag == tensions_tag) {
       restraint.tensions = unpack_numbers<Eigen::VectorXd>(block.payload);
+    } else if (block.tag == contacts_tag) {
+      contacts = unpack_numbers<std::vector<ContactForce>>(block.payload);
     } else if (block.tag == substeps_tag) {
       substeps = static_cast<std::int64_t>(ByteReader(unpack(block.payload)).whole());
     } else if (block.tag == rows_tag) {
@@ -319,6 +325,7 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, ResumePoint& fo
     begin = block.end;
   }
   found.checkpoint.state.restraint = std::move(restraint);
+  found.checkpoint.state.contact_forces = std::move(contacts);
   found.checkpoint.state.substeps = substeps;
   // Rows must cover all steps from 0 on, in the growing file's blocks and in the checkpoint.
   const std::int64_t step = found.checkpoint.state.step, in_blocks = found.partial->rows();
@@ -346,6 +353,9 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
   if (const Restraint& restraint = checkpoint.state.restraint; restraint.tensions.size() > 0) {
     bytes += block(held_tag, pack(bytes_of(restraint.acceleration)));
     bytes += block(tensions_tag, pack(bytes_of(restraint.tensions)));
+  }
+  if (const auto& contacts = checkpoint.state.contact_forces; !contacts.empty()) {
+    bytes += block(contacts_tag, pack(bytes_of(contacts)));
   }
   if (const std::int64_t substeps = checkpoint.state.substeps; substeps > 0) {
     bytes += block(substeps_tag, pack(ByteWriter().whole(static_cast<std::uint64_t>(substeps)).text()));

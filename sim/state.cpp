@@ -12,6 +12,7 @@ std::uint64_t hash_of(const State& state) {
   };
   for (const Vertices* vertices : {&state.x, &state.v, &state.restraint.acceleration}) add(*vertices);
   add(state.restraint.tensions);
+  hash.add(state.contact_forces.data(), state.contact_forces.size() * sizeof(ContactForce));
   if (state.substeps != 0) hash.add(&state.substeps, sizeof state.substeps);
   return hash.value();
 }

@@ -29,22 +29,22 @@ struct ContactKey {
 /// rope of a seam is such a constraint with a negative distance, and a closed seam one on all of d.
 struct ContactConstraint {
   ContactKey key;
-  int count = 1;                       ///< number of cloth vertices, 1 to 4
-  std::array<int, 4> vertices = {};    ///< cloth vertices
-  std::array<double, 4> weights = {};  ///< weights of these vertices
-  Eigen::Vector3d normal;              ///< unit vector from the second feature to the first
-  Eigen::Vector3d offset;              ///< the obstacle's share of d at the end of the step [m]
-  Eigen::Vector3d carried;             ///< change of the obstacle's share of d in the step [m]
-  Eigen::Vector3d start;               ///< d at the start of the step, with the same weights [m]
-  double distance = 0;                 ///< minimum n·d at the end of the step [m]
-  double friction = 0;                 ///< Coulomb's coefficient µ
-  double restitution = 0;              ///< ratio of separation to impact speed
-  double beyond = 0;                   ///< additional gap at the end of the step due to a bounce [m]
-  bool collides = false;               ///< true if the features pass through each other on straight paths
-  bool sews = false;                   ///< true for a tie of a seam: a rope, or a weld
-  bool welds = false;                  ///< true: d(x) = 0 instead, at the end of the step and in every direction
-  double radius = -1;                  ///< limit of the friction force, µ times a normal force [N]; negative: unknown
-  double stiffness = 0;                ///< penalty κ of the augmented Lagrangian [N/m]
+  int count = 1;                                      ///< number of cloth vertices, 1 to 4
+  std::array<int, 4> vertices = {};                   ///< cloth vertices
+  std::array<double, 4> weights = {};                 ///< weights of these vertices
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< unit vector from the second feature to the first
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   ///< the obstacle's share of d at the end of the step [m]
+  Eigen::Vector3d carried = Eigen::Vector3d::Zero();  ///< change of the obstacle's share of d in the step [m]
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();    ///< d at the start of the step, with the same weights [m]
+  double distance = 0;                                ///< minimum n·d at the end of the step [m]
+  double friction = 0;                                ///< Coulomb's coefficient µ
+  double restitution = 0;                             ///< ratio of separation to impact speed
+  double beyond = 0;                                  ///< additional gap at the end of the step due to a bounce [m]
+  bool collides = false;  ///< true if the features pass through each other on straight paths
+  bool sews = false;      ///< true for a tie of a seam: a rope, or a weld
+  bool welds = false;     ///< true: d(x) = 0 instead, at the end of the step and in every direction
+  double radius = -1;     ///< limit of the friction force, µ times a normal force [N]; negative: unknown
+  double stiffness = 0;   ///< penalty κ of the augmented Lagrangian [N/m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< multiplier: the force on d [N]
 
   /// Returns Σ weights·x over the cloth's vertices [m].

@@ -13,6 +13,7 @@ namespace {
 using Index = std::size_t;
 
 constexpr double relative_stiffness = 10;     // κ, in multiples of the stiffness of a contact's vertices
+constexpr double newton_stiffness = 20;       // κ with Newton's Hessian, whose factor bears more
 constexpr double weld_stiffness = 100;        // κ of a weld, likewise; it never opens
 constexpr double most_open = 4e-7;            // largest gap of a weld [m]
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
@@ -68,6 +69,42 @@ void ContactSolver::begin(const State& from, double start, double end, bool inst
   for (const auto& source : system_.contacts) source->begin(start_, start, end);
 }
 
+void ContactSolver::expect(const std::vector<ContactForce>& forces) {
+  contacts_.clear();
+  for (const ContactForce& last : forces) {
+    const auto& [source, kind, a, b, c, d] = last.key;
+    ContactConstraint contact;
+    contact.key = {source, kind, {a, b, c, d}};
+    contact.force = last.force;
+    contacts_.push_back(contact);
+  }
+}
+
+std::vector<ContactForce> ContactSolver::forces() const {
+  std::vector<ContactForce> forces;
+  if (!exact_) return forces;
+  for (const ContactConstraint& contact : contacts_) {
+    const double gap = contact.start.dot(contact.normal);
+    if (contact.welds || contact.friction <= 0 || gap >= (1 + begins_on) * contact.distance) continue;
+    if (contact.force.isZero(0)) continue;
+    const auto& [a, b, c, d] = contact.key.features;
+    forces.push_back({{contact.key.source, contact.key.kind, a, b, c, d}, contact.force});
+  }
+  return forces;
+}
+
+namespace {
+
+/// Returns the part of a force that a contact can bear: a push along its normal, and friction within Coulomb's cone.
+Eigen::Vector3d bearable(const ContactConstraint& contact, const Eigen::Vector3d& force) {
+  const double normal = std::max(0.0, force.dot(contact.normal));
+  const Eigen::Vector3d across = force - force.dot(contact.normal) * contact.normal;
+  const double most = contact.friction * normal, size = across.norm();
+  return normal * contact.normal + (size > most ? most / size : 1.0) * across;
+}
+
+}  // namespace
+
 bool ContactSolver::touches(const Vertices& target) {
   find(target, true);
   return !contacts_.empty();
@@ -113,6 +150,9 @@ void ContactSolver::find(const Vertices& target, bool turn) {
       contact.force = known->force;
       contact.stiffness = known->stiffness;
       contact.radius = known->radius;
+      if (known->stiffness > 0 || known->force.isZero(0)) continue;
+      contact.force = bearable(contact, known->force);  // from the last step
+      contact.radius = contact.friction * std::max(0.0, contact.force.dot(contact.normal));
     } else {
       const bool collides = contact.collides;
       contact = *known;
@@ -130,7 +170,8 @@ void ContactSolver::set_stiffness(const ContactProblem& problem) {
       if (free_[static_cast<Index>(vertex)] == 0) continue;
       compliance += contact.weights[i] * contact.weights[i] / problem.stiffness(vertex, contact.normal);
     }
-    contact.stiffness = (contact.welds ? weld_stiffness : relative_stiffness) / compliance;
+    const double solid = problem.exact() ? newton_stiffness : relative_stiffness;
+    contact.stiffness = (contact.welds ? weld_stiffness : solid) / compliance;
   }
 }
 
@@ -221,7 +262,8 @@ std::vector<HeldDirection> ContactSolver::held_directions(const std::vector<char
     const auto hold = [&](const Eigen::Vector3d& u) {
       const double stiffness = u.dot(response.stiffness * u);
       if (stiffness < least_held * contact.stiffness) return;
-      held.push_back({static_cast<int>(k), u, stiffness + contact.stiffness / relative_stiffness});
+      held.push_back(
+          {static_cast<int>(k), u, stiffness + contact.stiffness / (exact_ ? newton_stiffness : relative_stiffness)});
     };
     if (contact.welds) {
       for (int axis = 0; axis < 3; ++axis) hold(Eigen::Vector3d::Unit(axis));
@@ -339,6 +381,7 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
   bool settled = false, updated = false;
   double steepness = 0, moved = std::numeric_limits<double>::infinity();
   concavity_ = damping_ = 0;
+  exact_ = problem.exact();
   for (;; ++report.iterations) {
     problem.linearise(point.x, 0, damping_);
     set_stiffness(problem);

@@ -30,6 +30,10 @@ class ContactSolver {
   ///                      last step
   void begin(const State& from, double start, double end, bool instantaneous);
 
+  /// Begins the multipliers of the step with the forces of the last one, where contacts stay near.
+  /// @param forces sorted by key, see forces()
+  void expect(const std::vector<ContactForce>& forces);
+
   /// Finds the contacts of a cloth that moves straight to `target`. Returns true if there are any.
   [[nodiscard]] bool touches(const Vertices& target);
 
@@ -66,6 +70,10 @@ class ContactSolver {
   void rebound(bool instantaneous, Vertices& v) const;
 
   [[nodiscard]] const std::vector<ContactConstraint>& contacts() const { return contacts_; }
+  /// Returns the forces of lasting contacts with friction after a solve of Newton's Hessian, sorted by key. What slides
+  /// without friction is about to leave, and a guess would hold it within the tolerance; so would one where features
+  /// met in this step.
+  [[nodiscard]] std::vector<ContactForce> forces() const;
   /// Returns the residual of the last solve, contact forces included, n×3 [N].
   [[nodiscard]] const Vertices& residual() const { return gradient_; }
   /// Returns the estimated distance of the worst vertex from the minimum in the last solve [m].
@@ -132,6 +140,7 @@ class ContactSolver {
   double damping_ = 0;        // added to the Hessian, as a fraction of its bound
   double error_ = 0;          // estimated, of the last solve [m]
   double concavity_ = 0;      // share of the Hessian's negative eigenvalues
+  bool exact_ = false;        // true if the last solve was of Newton's Hessian
   std::vector<ContactConstraint> contacts_, before_, held_;
   std::vector<Response> responses_;
   FreeFlight flight_;

@@ -157,6 +157,11 @@ double SelfContacts::friction(const FeaturePair& pair) const {
   return frictions_(pieces_[Index(pair.vertices[0])], pieces_[Index(pair.vertices[3])]);
 }
 
+bool SelfContacts::is_pair_of_cloth(const ContactKey& key) const {
+  const auto is_vertex = [&](int i) { return i >= 0 && static_cast<Index>(i) < x_.size(); };
+  return key.kind >= 0 && key.kind < passed_kind && std::ranges::all_of(key.features, is_vertex);
+}
+
 void SelfContacts::find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
                         std::vector<ContactConstraint>& contacts) {
   for (Index i = 0; i < x_.size(); ++i) target_[i] = target.row(static_cast<Eigen::Index>(i)).transpose();
@@ -165,7 +170,7 @@ void SelfContacts::find(const Vertices& target, int source, const std::vector<Co
   const auto first = static_cast<std::ptrdiff_t>(contacts.size());
   // Contacts that bear a force may have left the candidates.
   for (const ContactConstraint& contact : held) {
-    if (contact.key.kind == passed_kind) continue;
+    if (!is_pair_of_cloth(contact.key)) continue;
     add({static_cast<Feature>(contact.key.kind), contact.key.features}, source, true, contacts);
   }
   if (!apart) {

@@ -147,6 +147,8 @@ class SelfContacts final : public ContactSource {
   /// Returns the contact of four vertices, without key and distance.
   [[nodiscard]] ContactConstraint make(const std::array<int, 4>& vertices, const std::array<double, 4>& weights,
                                        const Point& normal) const;
+  /// Returns true if a key names features of this cloth that may touch. The keys of a State may come from anywhere.
+  [[nodiscard]] bool is_pair_of_cloth(const ContactKey& key) const;
   /// Appends the contact of a pair, if there is one.
   void add(const FeaturePair& pair, int source, bool held, std::vector<ContactConstraint>& contacts) const;
   /// Appends the contacts that bring back features that have passed through a triangle.

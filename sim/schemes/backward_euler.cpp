@@ -54,6 +54,7 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   Vertices steady;
   if (contact_) {
     contact_->begin(state, system_.time(state.step), system_.time(state.step + 1), of_the_moment_);
+    contact_->expect(state.contact_forces);
     steady = state.x + system_.step * state.v;
     system_.place_pins(system_.time(state.step + 1), steady);
   }
@@ -83,6 +84,11 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
   // An unconverged solve does not determine a bounce well enough to give it energy.
   if (touches && report.converged) contact_->rebound(of_the_moment_, state.v);
+  if (touches && report.converged) {
+    state.contact_forces = contact_->forces();
+  } else {
+    state.contact_forces.clear();
+  }
   system_.move(state, &point_.x);
   system_.correct(state);
   return report;

@@ -35,7 +35,10 @@ StepReport Sdirk2::advance(State& state, StepForces& forces) {
   before_ = state;
   const StepReport freely = advance_freely(state, forces);
   touched_ = touching_->is_blocked_by_contact(before_, state.x);
-  if (!touched_) return freely;
+  if (!touched_) {
+    state.contact_forces.clear();
+    return freely;
+  }
   state = before_;
   StepReport report = touching_->advance(state, forces);
   report.iterations += freely.iterations;

@@ -106,6 +106,7 @@ class SubstepScheme::Motion {
     state.x = state_.x;
     state.v = state_.v;
     state.restraint = state_.restraint;
+    state.contact_forces = state_.contact_forces;
   }
 
   System system;

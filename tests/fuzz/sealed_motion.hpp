@@ -62,11 +62,13 @@ struct SealedMotion {
       if (step != 4) continue;
       last.books = EnergyMemory{1, state.x, 2};
       state.restraint = {.acceleration = state.v, .tensions = Eigen::VectorXd::Ones(5)};
+      state.contact_forces = {{.key = {0, 1, 2, 3, 0, 1}, .force = {0, 0, 1}}};
       state.substeps = 6;
       writer.keep(last, std::vector<float>(4, 10.0F));
       growing = folder.content("made.drape.partial");
       checkpoint = folder.content("made.drape.checkpoint");
       state.restraint = {};
+      state.contact_forces = {};
       state.substeps = 0;
     }
     writer.finish();

@@ -28,6 +28,7 @@
 //   if (!report.converged) std::printf("stopped after %d iterations", report.iterations);
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -44,6 +45,12 @@ struct Restraint {
   Eigen::VectorXd tensions = {};  ///< tension added to the cloth's springs; negative if pushing [N]
 };
 
+/// Force at a contact of the cloth at the end of a step.
+struct ContactForce {
+  std::array<std::int32_t, 6> key = {};             ///< identifies the contact: its source, kind and four features
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N]
+};
+
 /// Position and motion of a cloth after `step` steps. Time is step·h, never accumulated.
 struct State {
   Vertices x = {};  ///< n×3 [m]
@@ -54,6 +61,9 @@ struct State {
   Restraint restraint = {};
   /// With an accuracy, number of substeps to begin the next step with; 0: none known.
   std::int64_t substeps = 0;
+  /// By implicit methods, friction's contacts at the end of the last step: an initial guess for the next, as
+  /// `restraint`.
+  std::vector<ContactForce> contact_forces = {};
 };
 
 /// Returns a hash of all bits of a state. Two runs with the same hash agree from there on. Not cryptographic.
