@@ -4,8 +4,8 @@
 #include <chrono>
 #include <memory>
 
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/scene_files.hpp"
 #include "cli/study_command.hpp"
 #include "core/console.hpp"
 #include "core/files.hpp"

@@ -5,10 +5,8 @@
 #include <tuple>
 
 #include "cli/command_line.hpp"
-#include "cli/motion_runs.hpp"
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/run_arguments.hpp"
-#include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "compare/compare_scenes.hpp"

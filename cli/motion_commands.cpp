@@ -8,9 +8,8 @@
 
 #include "audit/report/audit_motion.hpp"
 #include "cli/command_line.hpp"
-#include "cli/motion_runs.hpp"
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/scene_files.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
 #include "core/files.hpp"

@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "cli/command_line.hpp"
-#include "cli/motion_runs.hpp"
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/run_arguments.hpp"
-#include "cli/scene_files.hpp"
 #include "cli/scene_run.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
