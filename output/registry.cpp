@@ -16,7 +16,6 @@
 #include "output/sink.hpp"
 #include "output/usd_writer.hpp"
 #include "output/video_encoder.hpp"
-#include "output/vtk_writer.hpp"
 
 namespace drape {
 
