@@ -12,7 +12,7 @@
 #include "compare/compare_scenes.hpp"
 #include "core/text.hpp"
 #include "output/registry.hpp"
-#include "render/gl/inspect.hpp"
+#include "render/gl/context.hpp"
 #include "sweep/request.hpp"
 
 namespace drape {

@@ -20,7 +20,7 @@
 #include "core/installation.hpp"
 #include "core/machine.hpp"
 #include "drape/core/error.hpp"
-#include "drape/render/overlay/fonts.hpp"
+#include "drape/render/overlay/pen.hpp"
 #include "drape/render/renderer.hpp"
 #include "drape/render/settings.hpp"
 #include "drape/scene/scene.hpp"
@@ -28,7 +28,6 @@
 #include "output/codecs/codecs.hpp"
 #include "output/registry.hpp"
 #include "render/gl/context.hpp"
-#include "render/gl/inspect.hpp"
 #include "reports/diagram_files.hpp"
 #include "sim/kernels/kernels.hpp"
 

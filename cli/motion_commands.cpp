@@ -19,7 +19,7 @@
 #include "drape/sim/settings.hpp"
 #include "motion/import/import_motion.hpp"
 #include "output/sink.hpp"
-#include "render/gl/inspect.hpp"
+#include "render/gl/context.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {

@@ -16,7 +16,7 @@
 #include "drape/scene/scene.hpp"
 #include "motion/import/import_motion.hpp"
 #include "output/registry.hpp"
-#include "render/gl/inspect.hpp"
+#include "render/gl/context.hpp"
 #include "run/outputs.hpp"
 #include "run/records.hpp"
 #include "run/run_scene.hpp"

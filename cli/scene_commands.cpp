@@ -20,7 +20,7 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "drape/scene/scene.hpp"
-#include "render/gl/inspect.hpp"
+#include "render/gl/context.hpp"
 #include "run/outputs.hpp"
 #include "scene/motion_scene.hpp"
 #include "scene/values/json_schema.hpp"
