@@ -13,7 +13,6 @@
 #include "motion/import/import_motion.hpp"
 #include "motion/import/motion_source.hpp"
 #include "motion/import/npz.hpp"
-#include "scene/mesh/obj.hpp"
 #include "scene/mesh/source.hpp"
 
 namespace drape {
