@@ -18,7 +18,7 @@
 #include "drape/render/image.hpp"
 #include "drape/sim/settings.hpp"
 #include "motion/import/import_motion.hpp"
-#include "output/sink.hpp"
+#include "output/registry.hpp"
 #include "render/gl/context.hpp"
 #include "run/outputs.hpp"
 

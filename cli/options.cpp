@@ -13,7 +13,6 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "output/registry.hpp"
-#include "output/sink.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {

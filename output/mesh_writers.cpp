@@ -17,7 +17,6 @@
 #include "core/text.hpp"
 #include "drape/core/rotation.hpp"
 #include "drape/sim/mesh.hpp"
-#include "output/sink.hpp"
 
 namespace drape {
 namespace {
