@@ -32,7 +32,7 @@ void put_words(std::string& bytes, std::initializer_list<int> values) {
   for (const int value : values) put(bytes, {value & 0xff, value >> 8});
 }
 
-constexpr int extension = 0x21, image = 0x2c, trailer = 0x3b;
+constexpr int extension = 0x21, image_separator = 0x2c, trailer = 0x3b;
 constexpr int graphic_control = 0xf9, application = 0xff;
 
 /// Writes the blocks of an animated GIF that repeats for ever (Graphics Interchange Format, version 89a, CompuServe
@@ -98,7 +98,7 @@ std::size_t Container::add(const Patch& patch, std::int64_t duration) {
   std::string bytes;
   put(bytes, {extension, graphic_control, 4, 1 << 2 | 1});  // keeps the previous picture; has a transparent colour
   put_words(bytes, {static_cast<int>(std::min(duration, longest))});
-  put(bytes, {Palette::transparent, 0, image});
+  put(bytes, {Palette::transparent, 0, image_separator});
   put_words(bytes, {patch.x, patch.y, patch.width, patch.height});
   put(bytes, {0});  // no local colour table
   bytes += patch.data;
