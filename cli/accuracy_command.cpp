@@ -4,15 +4,15 @@
 #include <chrono>
 #include <memory>
 
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/scene_files.hpp"
 #include "cli/study_command.hpp"
 #include "core/console.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
-#include "drape/render/overlay/fonts.hpp"
+#include "drape/render/overlay/pen.hpp"
 #include "drape/scene/scene.hpp"
-#include "render/gl/inspect.hpp"
+#include "render/gl/context.hpp"
 #include "run/outputs.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/accuracy_runs.hpp"

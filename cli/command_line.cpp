@@ -5,6 +5,8 @@
 #include <spdlog/spdlog.h>
 #include <algorithm>
 #include <array>
+#include <csignal>
+#include <cstdlib>
 #include <memory>
 #include <new>
 #include <optional>
@@ -14,11 +16,13 @@
 #include <system_error>
 #include <vector>
 
-#include "cli/environment.hpp"
 #include "core/build_info.hpp"
 #include "core/console.hpp"
+#include "core/installation.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
+#include "drape/scene/scene.hpp"
+#include "drape/sim/settings.hpp"
 #include "scene/tables.hpp"
 
 namespace drape {
@@ -151,6 +155,18 @@ const CLI::App& command_of_help(const CLI::App& app) {
   return chosen.empty() ? app : command_of_help(*chosen.front());
 }
 
+/// Calls `use` with the value of a non-empty environment variable.
+template <class Use>
+void with_variable(const char* name, const Use& use) {
+  const char* value = std::getenv(name);
+  if (value == nullptr || *value == '\0') return;
+  try {
+    use(value);
+  } catch (const UsageError& error) {
+    throw UsageError(std::string(name) + ": " + error.what());
+  }
+}
+
 ExitCode report(const Error& error) {
   for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
     end = std::string_view(error.what()).find('\n', begin);
@@ -181,6 +197,14 @@ void add_backend_option(CLI::App& subcommand, GlBackend& backend) {
       ->type_name("auto|osmesa|egl");
 }
 
+void use_environment_isa() { with_variable("DRAPE_ISA", limit_instruction_set); }
+void use_environment_data() {
+  with_variable("DRAPE_DATA", [](const char* folder) { use_data_folder(folder); });
+}
+
+namespace {
+
+/// Reads the command line, runs the chosen subcommand and returns the exit code; errors go to standard error.
 ExitCode run_command_line(int argc, const char* const* argv) {
   CLI::App app("Simulates mass-spring cloth and renders it offscreen into GIF, PNG and MP4.", "drape");
   app.formatter(std::make_shared<HelpFormatter>());
@@ -244,10 +268,15 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   set_up_logging(common);
   const bool diagnosed = app.got_subcommand("doctor");  // doctor reports environment errors as findings
   return code_or_write_error(reported([&] {
-    if (!diagnosed) use_environment();
+    if (!diagnosed) {
+      use_environment_isa();
+      use_environment_data();
+    }
     return command();
   }));
 }
+
+}  // namespace
 
 ExitCode reported(const std::function<ExitCode()>& work) {
   try {
@@ -502,3 +531,13 @@ const CLI::App& find_command(const CLI::App& app, std::span<const std::string> n
 }
 
 }  // namespace drape
+
+int main(int argc, char** argv) {
+  drape::open_standard_streams();
+  drape::use_portable_data();
+  // Turn a vanished reader and the file size limit into write errors: death by signal would leave temporary files
+  // behind.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  return static_cast<int>(drape::run_command_line(argc, argv));
+}

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "cli/environment.hpp"
+#include "cli/exit_code.hpp"
 #include "cli/terminal.hpp"
 #include "drape/render/settings.hpp"
 
@@ -74,8 +74,13 @@ void add_backend_option(CLI::App& subcommand, GlBackend& backend);
 /// Does work and returns its exit code. Errors go to standard error and determine the exit code.
 ExitCode reported(const std::function<ExitCode()>& work);
 
-/// Reads the command line, runs the chosen subcommand and returns the exit code; errors go to standard error.
-ExitCode run_command_line(int argc, const char* const* argv);
+/// Applies drape's environment variable DRAPE_ISA: the highest instruction set for the hot loops.
+/// @throws UsageError for an unknown name
+void use_environment_isa();
+
+/// Applies drape's environment variable DRAPE_DATA: the data folder.
+/// @throws UsageError if there is no such folder
+void use_environment_data();
 
 /// Adds examples to the help of every command.
 void add_examples(CLI::App& app);

@@ -5,16 +5,14 @@
 #include <tuple>
 
 #include "cli/command_line.hpp"
-#include "cli/motion_runs.hpp"
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/run_arguments.hpp"
-#include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "compare/compare_scenes.hpp"
 #include "core/text.hpp"
 #include "output/registry.hpp"
-#include "render/gl/inspect.hpp"
+#include "render/gl/context.hpp"
 #include "sweep/request.hpp"
 
 namespace drape {

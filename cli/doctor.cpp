@@ -1,5 +1,3 @@
-#include "cli/doctor.hpp"
-
 #include <cholmod.h>
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -11,15 +9,20 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/command_line.hpp"
-#include "cli/environment.hpp"
+#include "core/build_info.hpp"
 #include "core/console.hpp"
 #include "core/files.hpp"
 #include "core/installation.hpp"
+#include "core/machine.hpp"
 #include "drape/core/error.hpp"
-#include "drape/render/overlay/fonts.hpp"
+#include "drape/render/overlay/pen.hpp"
 #include "drape/render/renderer.hpp"
+#include "drape/render/settings.hpp"
 #include "drape/scene/scene.hpp"
 #include "drape/sim/mesh.hpp"
 #include "output/codecs/codecs.hpp"
@@ -32,6 +35,43 @@ namespace drape {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// A component that drape uses, with the result of its check.
+struct Finding {
+  std::string name;      ///< "egl", ".mp4", "fonts"
+  std::string detail;    ///< result: "H.264", "DejaVuSans"
+  std::string problem;   ///< empty if it works
+  std::string packages;  ///< Debian packages that provide it, separated by spaces
+
+  [[nodiscard]] bool works() const { return problem.empty(); }
+};
+
+/// An OpenGL backend and its properties if it works.
+struct BackendFinding : Finding {
+  GlFacts facts;
+};
+
+/// The environment of drape on this machine.
+struct Diagnosis {
+  BuildInfo build;
+  MachineFacts machine;
+  std::vector<std::pair<std::string, std::string>> environment;  ///< environment variables that affect drape, if set
+
+  std::vector<std::string> kernels;           ///< instruction sets with code in drape
+  std::vector<std::string> runnable_kernels;  ///< those supported by this processor
+  Finding chosen_kernels;                     ///< detail: the selected one
+  Finding blas;                               ///< detail: the file, and its own description
+  std::string cholmod;                        ///< version
+
+  std::vector<BackendFinding> backends;
+  Finding drawing;                ///< detail: the backend selected by --backend auto; works if a test picture is right
+  Finding codecs;                 ///< detail: the encoding and decoding module
+  std::vector<Finding> outputs;   ///< film formats
+  std::vector<Finding> optional;  ///< components of some commands only
+
+  /// Returns the packages to install, each once; empty if everything works.
+  [[nodiscard]] std::vector<std::string> missing_packages() const;
+};
 
 std::string line(const std::string& name, const std::string& text) { return fmt::format("  {:<16} {}\n", name, text); }
 
@@ -141,23 +181,6 @@ Json to_json(const Diagnosis& d) {
           {"optional", to_json(d.optional)},
           {"missing_packages", d.missing_packages()}};
 }
-
-}  // namespace
-
-void add_doctor_command(CLI::App& app, Command& command) {
-  CLI::App* doctor = app.add_subcommand("doctor", "Report what drape finds on this machine, and what to install");
-  auto as_json = std::make_shared<bool>(false);
-  doctor->add_flag("--json", *as_json, "Print JSON");
-  doctor->callback([as_json, &command] {
-    command = [as_json] {
-      const Diagnosis diagnosis = diagnose();
-      print_text(stdout, *as_json ? to_json(diagnosis).dump(2) + "\n" : to_text(diagnosis));
-      return diagnosis.drawing.works() ? ExitCode::ok : ExitCode::output;
-    };
-  });
-}
-
-namespace {
 
 /// Runs the work and returns its error, if any.
 template <class Work>
@@ -294,8 +317,6 @@ std::vector<Finding> find_diagrams() {
   return {files, fonts};
 }
 
-}  // namespace
-
 std::vector<std::string> Diagnosis::missing_packages() const {
   std::vector<std::string> missing;
   const auto add = [&](const Finding& finding) {
@@ -311,6 +332,8 @@ std::vector<std::string> Diagnosis::missing_packages() const {
   return missing;
 }
 
+/// Checks this machine: loads the OpenGL libraries, draws a small picture, and writes two frames in every format to a
+/// temporary folder.
 Diagnosis diagnose() {
   Diagnosis diagnosis;
   diagnosis.environment = relevant_environment();  // first: preparing OpenGL sets some of them
@@ -338,6 +361,21 @@ Diagnosis diagnose() {
   diagnosis.optional = find_diagrams();
   diagnosis.optional.push_back(find_text());
   return diagnosis;
+}
+
+}  // namespace
+
+void add_doctor_command(CLI::App& app, Command& command) {
+  CLI::App* doctor = app.add_subcommand("doctor", "Report what drape finds on this machine, and what to install");
+  auto as_json = std::make_shared<bool>(false);
+  doctor->add_flag("--json", *as_json, "Print JSON");
+  doctor->callback([as_json, &command] {
+    command = [as_json] {
+      const Diagnosis diagnosis = diagnose();
+      print_text(stdout, *as_json ? to_json(diagnosis).dump(2) + "\n" : to_text(diagnosis));
+      return diagnosis.drawing.works() ? ExitCode::ok : ExitCode::output;
+    };
+  });
 }
 
 }  // namespace drape

@@ -8,9 +8,8 @@
 
 #include "audit/report/audit_motion.hpp"
 #include "cli/command_line.hpp"
-#include "cli/motion_runs.hpp"
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/scene_files.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
 #include "core/files.hpp"
@@ -19,8 +18,8 @@
 #include "drape/render/image.hpp"
 #include "drape/sim/settings.hpp"
 #include "motion/import/import_motion.hpp"
-#include "output/sink.hpp"
-#include "render/gl/inspect.hpp"
+#include "output/registry.hpp"
+#include "render/gl/context.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {

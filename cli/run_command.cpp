@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "cli/command_line.hpp"
-#include "cli/motion_runs.hpp"
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/run_arguments.hpp"
-#include "cli/scene_files.hpp"
 #include "cli/scene_run.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
@@ -18,7 +16,7 @@
 #include "drape/scene/scene.hpp"
 #include "motion/import/import_motion.hpp"
 #include "output/registry.hpp"
-#include "render/gl/inspect.hpp"
+#include "render/gl/context.hpp"
 #include "run/outputs.hpp"
 #include "run/records.hpp"
 #include "run/run_scene.hpp"

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "cli/command_line.hpp"
-#include "cli/manual/completions.hpp"
-#include "cli/manual/man_pages.hpp"
+#include "cli/inputs.hpp"
+#include "cli/manual/manual.hpp"
 #include "cli/options.hpp"
-#include "cli/scene_files.hpp"
 #include "cli/scene_run.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
@@ -21,7 +20,7 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "drape/scene/scene.hpp"
-#include "render/gl/inspect.hpp"
+#include "render/gl/context.hpp"
 #include "run/outputs.hpp"
 #include "scene/motion_scene.hpp"
 #include "scene/values/json_schema.hpp"

@@ -10,8 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/motion_runs.hpp"
-#include "cli/scene_files.hpp"
+#include "cli/inputs.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"

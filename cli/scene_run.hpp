@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/command_line.hpp"
-#include "cli/run_arguments.hpp"
+#include "cli/options.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "drape/scene/document.hpp"

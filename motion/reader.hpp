@@ -10,8 +10,7 @@
 #include "core/files.hpp"
 #include "drape/scene/scene.hpp"
 #include "motion/blocks.hpp"
-#include "motion/header.hpp"
-#include "motion/state_codec.hpp"
+#include "motion/encoding.hpp"
 
 namespace drape {
 

@@ -8,8 +8,7 @@
 
 #include "drape/scene/scene.hpp"
 #include "motion/blocks.hpp"
-#include "motion/header.hpp"
-#include "motion/state_codec.hpp"
+#include "motion/encoding.hpp"
 
 namespace drape {
 

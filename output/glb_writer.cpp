@@ -10,7 +10,7 @@
 #include "core/files.hpp"
 #include "drape/core/error.hpp"
 #include "drape/render/image.hpp"
-#include "output/vtk_writer.hpp"
+#include "output/mesh_writers.hpp"
 
 namespace drape {
 namespace {

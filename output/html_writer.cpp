@@ -11,8 +11,8 @@
 
 #include "drape/core/error.hpp"
 #include "drape/render/image.hpp"
+#include "output/mesh_writers.hpp"
 #include "output/png_encoder.hpp"
-#include "output/vtk_writer.hpp"
 #include "render/overlay/color_scale.hpp"
 #include "reports/components.hpp"
 #include "reports/page.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "output/vtk_writer.hpp"
+#include "output/mesh_writers.hpp"
 
 namespace drape {
 namespace {

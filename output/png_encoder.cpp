@@ -14,7 +14,7 @@
 #include "core/files.hpp"
 #include "drape/core/error.hpp"
 #include "drape/render/image.hpp"
-#include "output/codecs/png.hpp"
+#include "output/codecs/codecs.hpp"
 #include "render/overlay/diagrams.hpp"
 
 namespace drape {

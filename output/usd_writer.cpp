@@ -9,7 +9,7 @@
 
 #include "drape/core/rotation.hpp"
 #include "drape/render/image.hpp"
-#include "output/vtk_writer.hpp"
+#include "output/mesh_writers.hpp"
 
 namespace drape {
 namespace {

@@ -4,18 +4,17 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "drape/render/settings.hpp"
 #include "drape/sim/mesh.hpp"
-#include "render/ambient_occlusion.hpp"
 #include "render/gl/device.hpp"
 #include "render/gl/program.hpp"
 #include "render/outline.hpp"
 #include "render/shadows.hpp"
 #include "render/shot.hpp"
 #include "render/smooth_surface.hpp"
-#include "render/texture_footprint.hpp"
 
 namespace drape {
 
@@ -42,6 +41,39 @@ class Weave {
  private:
   Eigen::Vector2f yarns_ = Eigen::Vector2f::Zero();
   double widest_ = 0;  // yarn, where the coordinates are stretched most [m]
+};
+
+/// Ratio of a pixel's footprint in a texture, length by width, up to which one sample of the mipmap is sharp enough. As
+/// in cloth.frag.
+constexpr double tolerated_stretch = 1.5;
+
+/// Returns the largest number of samples along a footprint.
+/// @param anisotropy ratio up to which a footprint is resolved across
+int most_footprint_samples(int anisotropy);
+
+/// Returns the number of samples along the footprint of a pixel: 1, 2 or most_footprint_samples(). It is 1 where the
+/// texture is magnified.
+/// @param change of the texture coordinates per pixel along the picture's axes, as columns [texels]
+int footprint_samples(const Eigen::Matrix2d& change, int anisotropy);
+
+/// Finds the triangles that are seen so aslant that their texture needs several samples.
+class TextureFootprints {
+ public:
+  /// @param edges texture coordinates of a triangle's second and third corner relative to its first, as columns
+  ///   [texels]; zero for triangles without a texture
+  TextureFootprints(std::vector<Eigen::Matrix2d> edges, int anisotropy)
+      : edges_(std::move(edges)), anisotropy_(anisotropy) {}
+
+  /// Computes footprint_samples() of each triangle, as if it were seen from afar.
+  /// @param positions vertices [m]
+  /// @param picture   size [pixels]
+  const std::vector<int>& count(const Shot& shot, const Vertices& positions, std::span<const Triangle> triangles,
+                                Eigen::Vector2i picture);
+
+ private:
+  std::vector<Eigen::Matrix2d> edges_;
+  int anisotropy_;
+  std::vector<int> samples_;
 };
 
 /// Draws the cloth: its smooth surface with a hem, lit on both sides, with optional mesh lines. Each of several cloths

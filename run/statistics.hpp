@@ -7,7 +7,7 @@
 
 #include "drape/sim/simulation.hpp"
 #include "drape/sim/state.hpp"
-#include "motion/header.hpp"
+#include "motion/encoding.hpp"
 
 namespace drape {
 

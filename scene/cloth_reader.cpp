@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "scene/mesh_value.hpp"
-#include "scene/seam_reader.hpp"
 #include "scene/selection.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/values.hpp"

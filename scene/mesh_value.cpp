@@ -12,7 +12,6 @@
 
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
-#include "scene/mesh/obj.hpp"
 #include "scene/mesh/source.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/usd/mesh.hpp"

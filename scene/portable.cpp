@@ -1,4 +1,4 @@
-#include "drape/scene/portable.hpp"
+#include "drape/scene/scene.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include "core/installation.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
-#include "drape/scene/scene.hpp"
 #include "scene/mesh/source.hpp"
 #include "scene/values.hpp"
 

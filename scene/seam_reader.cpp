@@ -1,4 +1,4 @@
-#include "scene/seam_reader.hpp"
+#include "scene/cloth_reader.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -6,7 +6,6 @@
 #include <map>
 
 #include "core/text.hpp"
-#include "scene/cloth_reader.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/values.hpp"
 

@@ -76,7 +76,7 @@ float woven() {
 // `tolerated` times as long as wide gives the value of a single sample, so that no seam shows where the triangles drawn
 // with one begin. The mipmap's level is chosen as Mesa does: by the largest change of a coordinate.
 vec3 along_footprint() {
-  const float tolerated = 1.5;  // as in texture_footprint.hpp
+  const float tolerated = 1.5;  // as in draw_cloth.hpp
   vec2 size = vec2(textureSize(cloth_texture, 0));
   vec2 right = dFdx(texture_position) * size, above = dFdy(texture_position) * size;  // [texels/pixel]
   float a = dot(right, right), b = dot(right, above), c = dot(above, above);

@@ -17,7 +17,6 @@
 #include "core/hash.hpp"
 #include "drape/render/image.hpp"
 #include "output/codecs/codecs.hpp"
-#include "output/codecs/png.hpp"
 #include "reports/chart.hpp"
 #include "reports/listing.hpp"
 #include "reports/page.hpp"

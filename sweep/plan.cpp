@@ -17,7 +17,7 @@
 #include "drape/core/error.hpp"
 #include "drape/scene/document.hpp"
 #include "output/registry.hpp"
-#include "render/gl/inspect.hpp"
+#include "render/gl/context.hpp"
 #include "run/outputs.hpp"
 #include "run/shard.hpp"
 #include "sweep/page.hpp"

@@ -10,7 +10,6 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "drape/scene/scene.hpp"
-#include "motion/import/mesh_sequence.hpp"
 #include "motion/import/motion_source.hpp"
 #include "motion/reader.hpp"
 #include "motion/writer.hpp"

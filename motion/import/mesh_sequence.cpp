@@ -1,5 +1,3 @@
-#include "motion/import/mesh_sequence.hpp"
-
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
@@ -15,8 +13,6 @@
 #include "motion/import/import_motion.hpp"
 #include "motion/import/motion_source.hpp"
 #include "motion/import/npz.hpp"
-#include "motion/import/vtk.hpp"
-#include "scene/mesh/obj.hpp"
 #include "scene/mesh/source.hpp"
 
 namespace drape {

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -113,5 +114,45 @@ inline std::optional<double> time_in_comment(std::string_view text) {
   const auto read = std::from_chars(text.data() + place + at.size(), text.data() + text.size(), time);
   return read.ec == std::errc() ? std::optional(time) : std::nullopt;
 }
+
+/// Reads one mesh file, by its extension.
+/// @throws UsageError that names it
+MeshFrame read_mesh_frame(const std::filesystem::path& file);
+
+/// Checks that a frame has the vertices and triangles of the first one, and finite positions.
+/// @throws UsageError "name: …" with the first difference
+void require_same_mesh(const std::string& name, const Mesh& first, const Mesh& mesh);
+
+/// Returns the extension in lower case: ".obj" for "A.OBJ".
+std::string lower_ending(const std::filesystem::path& file);
+
+/// Reads a PLY mesh: ASCII or binary of either byte order, with x, y, z of the element "vertex" and the list
+/// "vertex_indices" or "vertex_index" of the element "face". Other elements and properties are ignored.
+/// @param name file name for messages
+/// @throws UsageError "name: message"
+MeshFrame read_ply(const std::string& name, std::string_view text);
+
+/// Reads a legacy VTK file (.vtk), ASCII or binary: the points and polygons of POLYDATA, or of an UNSTRUCTURED_GRID of
+/// polygons. Other content is ignored.
+/// @param name file name for messages
+/// @throws UsageError "name: message"
+MeshFrame read_vtk_legacy(const std::string& name, std::string_view text);
+
+/// Reads a VTK XML file of PolyData or an unstructured grid of polygons (.vtp, .vtu): points, polygons, the point data
+/// "velocity", and drape's field data: TimeValue, energies, spheres and grounds. Arrays may be ASCII, base64 or
+/// appended, of either byte order, and compressed with zlib.
+/// @param name file name for messages
+/// @throws UsageError "name: message"
+MeshFrame read_vtk_xml(const std::string& name, const std::string& text);
+
+/// An entry of a .pvd.
+struct PvdEntry {
+  double time = 0;  ///< [s]
+  int part = 0;
+  std::string file;  ///< relative to the .pvd
+};
+
+/// Reads a ParaView collection. @throws UsageError as above
+std::vector<PvdEntry> read_pvd(const std::string& name, const std::string& text);
 
 }  // namespace drape

@@ -1,5 +1,3 @@
-#include "motion/import/vtk.hpp"
-
 #include <fmt/format.h>
 #include <tinyxml2.h>
 #include <zlib.h>
@@ -11,7 +9,6 @@
 #include "core/base64.hpp"
 #include "core/files.hpp"
 #include "motion/import/import_motion.hpp"
-#include "motion/import/mesh_sequence.hpp"
 #include "motion/import/motion_source.hpp"
 #include "motion/import/npz.hpp"
 

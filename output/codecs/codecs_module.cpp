@@ -1,22 +1,43 @@
-#include "output/codecs/codecs_module.hpp"
-
 #include <fcntl.h>
 #include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
 #include <mutex>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
+#include <stdexcept>
 
 #include "output/codecs/codecs.hpp"
 #include "output/codecs/webp.hpp"
 
 extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
 #include <libavutil/log.h>
+#include <libavutil/opt.h>
 }
 
-#include <cstdio>
+// The module: drape links none of it, and finds it by the single name at the end.
 
 namespace drape {
+namespace {
+
+/// Redirects stderr to nowhere during its lifetime: OpenCV 4.6 prints which video tag it substitutes, and no setting
+/// prevents it. It affects the whole process, so keep it short: printing code that holds the same mutex waits.
+class QuietStderr {
+ public:
+  explicit QuietStderr(std::mutex& console);
+  ~QuietStderr();
+  QuietStderr(const QuietStderr&) = delete;
+  QuietStderr& operator=(const QuietStderr&) = delete;
+
+ private:
+  std::scoped_lock<std::mutex> lock_;
+  int kept_ = -1;  // descriptor of the original stderr
+};
 
 QuietStderr::QuietStderr(std::mutex& console) : lock_(console) {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -34,74 +55,9 @@ QuietStderr::~QuietStderr() {
   ::close(kept_);
 }
 
+/// Silences FFmpeg, which OpenCV uses, on the terminal: exceptions report errors. Holds for the whole process until
+/// OpenCV turns the messages on again, at its first use.
 void silence_ffmpeg() { av_log_set_level(AV_LOG_QUIET); }
-
-}  // namespace drape
-
-// The module: drape links none of it, and finds it by the single name at the end.
-
-namespace drape {
-namespace {
-
-std::mutex* console = nullptr;  // the program's mutex, see QuietStderr
-
-cv::Mat decode(std::string_view bytes, int flags) {
-  const cv::Mat all(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-  const QuietStderr quiet(*console);  // libpng would print errors without the file's name
-  return cv::imdecode(all, flags);
-}
-
-VideoPen begin_video(const std::string& file, const std::string& fourcc, double fps, cv::Size size) {
-  const QuietStderr quiet(*console);
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  cv::VideoWriter writer;
-  const int code = cv::VideoWriter::fourcc(fourcc[0], fourcc[1], fourcc[2], fourcc[3]);
-  const bool opened = writer.open(file, cv::CAP_FFMPEG, code, fps, size);
-  silence_ffmpeg();  // OpenCV turns its messages on at first use
-  if (!opened) return {};
-  return [writer](const cv::Mat& bgr) mutable { writer.write(bgr); };
-}
-
-AnimationPen begin_animation(const std::string& file, const std::string& form, double fps, cv::Size size) {
-  return form == "webp" ? begin_webp(file, fps, size) : begin_apng(file, fps, size);
-}
-
-cv::VideoCapture opened(const std::string& file) {
-  const QuietStderr quiet(*console);
-  cv::VideoCapture video(file, cv::CAP_FFMPEG);
-  silence_ffmpeg();  // OpenCV has just turned them on
-  return video;
-}
-
-int readable_frames(const std::string& file) {
-  int found = 0;
-  for (cv::VideoCapture video = opened(file); video.isOpened() && video.grab();) ++found;
-  return found;
-}
-
-}  // namespace
-}  // namespace drape
-
-extern "C" const drape::Codecs* drape_codecs(std::mutex& console) {
-  drape::console = &console;
-  static constexpr drape::Codecs codecs{drape::decode, drape::begin_video, drape::begin_animation,
-                                        drape::readable_frames};
-  return &codecs;
-}
-
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/opt.h>
-}
-
-#include <algorithm>
-#include <array>
-#include <memory>
-#include <stdexcept>
-
-namespace drape {
-namespace {
 
 /// Throws std::runtime_error with libav's message for an error code. @returns other codes
 int checked(int code) {
@@ -204,11 +160,54 @@ class Animation {
   std::int64_t count_ = 0;
 };
 
-}  // namespace
-
+/// Implements Codecs::begin_animation for APNG with FFmpeg's libraries: OpenCV cannot write APNG with them.
 AnimationPen begin_apng(const std::string& file, double fps, cv::Size size) {
   const auto animation = std::make_shared<Animation>(file, fps, size);
   return [animation](const cv::Mat* rgb) { rgb != nullptr ? animation->add(*rgb) : animation->finish(); };
 }
 
+std::mutex* console = nullptr;  // the program's mutex, see QuietStderr
+
+cv::Mat decode(std::string_view bytes, int flags) {
+  const cv::Mat all(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+  const QuietStderr quiet(*console);  // libpng would print errors without the file's name
+  return cv::imdecode(all, flags);
+}
+
+VideoPen begin_video(const std::string& file, const std::string& fourcc, double fps, cv::Size size) {
+  const QuietStderr quiet(*console);
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  cv::VideoWriter writer;
+  const int code = cv::VideoWriter::fourcc(fourcc[0], fourcc[1], fourcc[2], fourcc[3]);
+  const bool opened = writer.open(file, cv::CAP_FFMPEG, code, fps, size);
+  silence_ffmpeg();  // OpenCV turns its messages on at first use
+  if (!opened) return {};
+  return [writer](const cv::Mat& bgr) mutable { writer.write(bgr); };
+}
+
+AnimationPen begin_animation(const std::string& file, const std::string& form, double fps, cv::Size size) {
+  return form == "webp" ? begin_webp(file, fps, size) : begin_apng(file, fps, size);
+}
+
+cv::VideoCapture opened(const std::string& file) {
+  const QuietStderr quiet(*console);
+  cv::VideoCapture video(file, cv::CAP_FFMPEG);
+  silence_ffmpeg();  // OpenCV has just turned them on
+  return video;
+}
+
+int readable_frames(const std::string& file) {
+  int found = 0;
+  for (cv::VideoCapture video = opened(file); video.isOpened() && video.grab();) ++found;
+  return found;
+}
+
+}  // namespace
 }  // namespace drape
+
+extern "C" const drape::Codecs* drape_codecs(std::mutex& console) {
+  drape::console = &console;
+  static constexpr drape::Codecs codecs{drape::decode, drape::begin_video, drape::begin_animation,
+                                        drape::readable_frames};
+  return &codecs;
+}

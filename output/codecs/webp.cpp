@@ -6,14 +6,49 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <opencv2/core.hpp>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
 
 namespace drape {
 namespace {
+
+/// An animated WebP file that repeats for ever (RFC 9649). Each of its frames changes a rectangle.
+class WebpFile {
+ public:
+  /// @throws std::runtime_error with the reason if it cannot be written
+  WebpFile(const std::string& file, cv::Size size);
+
+  /// Shows a frame on top of the previous ones, until the next begins.
+  /// @param still bytes of a WebP file; its transparent pixels keep the previous picture
+  /// @param place rectangle of the frame; its corner has even coordinates
+  /// @param begin [ms]
+  void show(const std::string& still, const cv::Rect& place, std::int64_t begin);
+
+  /// Returns when the current frame began [ms].
+  [[nodiscard]] std::int64_t last_begin() const { return begin_; }
+
+  /// Ends the last frame and completes the file.
+  void finish(std::int64_t end);
+
+ private:
+  void write_frame(std::int64_t end);
+  void put(const std::string& bytes);
+
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> stream_;
+  std::string frame_;  // chunks of the current frame
+  cv::Rect place_;
+  std::int64_t begin_ = 0;
+  std::uint64_t size_ = 0;
+};
 
 using Mask = cv::Mat1b;  // 1 where a frame changes the picture
 
@@ -215,15 +250,6 @@ class WebpAnimation {
   cv::Mat1b kept_;           // 1: at rest, but wrong after lossy compression
 };
 
-}  // namespace
-
-AnimationPen begin_webp(const std::string& file, double fps, cv::Size size) {
-  const auto animation = std::make_shared<WebpAnimation>(file, fps, size);
-  return [animation](const cv::Mat* rgb) { rgb != nullptr ? animation->add(*rgb) : animation->finish(); };
-}
-
-namespace {
-
 /// Encodes a number in `bytes` bytes, little-endian.
 std::string little_endian(std::uint64_t number, int bytes) {
   std::string text;
@@ -263,8 +289,6 @@ std::string head_of(cv::Size size, std::uint64_t bytes) {
 
 [[noreturn]] void fail() { throw std::runtime_error(std::generic_category().message(errno == 0 ? EIO : errno)); }
 
-}  // namespace
-
 WebpFile::WebpFile(const std::string& file, cv::Size size) {
   constexpr int most = 16383;  // limit of libwebp
   if (size.width > most || size.height > most) throw std::runtime_error("a WebP has at most 16383 pixels a side");
@@ -301,6 +325,13 @@ void WebpFile::finish(std::int64_t end) {
   if (std::fseek(stream_.get(), 4, SEEK_SET) != 0) fail();
   put(size);
   if (std::fflush(stream_.get()) != 0) fail();
+}
+
+}  // namespace
+
+AnimationPen begin_webp(const std::string& file, double fps, cv::Size size) {
+  const auto animation = std::make_shared<WebpAnimation>(file, fps, size);
+  return [animation](const cv::Mat* rgb) { rgb != nullptr ? animation->add(*rgb) : animation->finish(); };
 }
 
 }  // namespace drape

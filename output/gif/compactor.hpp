@@ -9,7 +9,6 @@
 
 #include "core/files.hpp"
 #include "drape/render/image.hpp"
-#include "output/gif/dither.hpp"
 #include "output/gif/palette.hpp"
 
 namespace drape::gif {

@@ -6,7 +6,6 @@
 #include "core/installation.hpp"
 #include "drape/core/error.hpp"
 #include "render/gl/context.hpp"
-#include "render/gl/inspect.hpp"
 
 namespace drape {
 namespace {

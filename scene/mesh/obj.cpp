@@ -1,4 +1,4 @@
-#include "scene/mesh/obj.hpp"
+#include "scene/mesh/source.hpp"
 
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/text.hpp"
-#include "scene/mesh/source.hpp"
 
 namespace drape {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "check/ci_reports.hpp"
 #include "check/html_report.hpp"
-#include "cli/environment.hpp"
+#include "cli/exit_code.hpp"
 #include "core/text.hpp"
 #include "tests/check/checked_scene.hpp"
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "output/gif/compactor.hpp"
-#include "output/gif/dither.hpp"
 #include "output/gif/palette.hpp"
 #include "tests/support/synthetic_film.hpp"
 

@@ -5,7 +5,6 @@
 
 #include "drape/core/error.hpp"
 #include "output/registry.hpp"
-#include "output/sink.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"
 

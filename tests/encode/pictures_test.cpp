@@ -15,8 +15,6 @@
 #include <jpeglib.h>
 
 #include "output/codecs/codecs.hpp"
-#include "output/codecs/jpeg.hpp"
-#include "output/codecs/png.hpp"
 #include "tests/support/random.hpp"
 
 namespace drape {

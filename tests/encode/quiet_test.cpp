@@ -9,7 +9,6 @@
 
 #include "core/console.hpp"
 #include "output/codecs/codecs.hpp"
-#include "output/codecs/png.hpp"
 
 namespace drape {
 namespace {

@@ -5,8 +5,7 @@
 
 #include "core/files.hpp"
 #include "motion/import/import_motion.hpp"
-#include "motion/import/mesh_sequence.hpp"
-#include "motion/import/vtk.hpp"
+#include "motion/import/motion_source.hpp"
 #include "tests/fuzz/accepts_or_refuses.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // Wavefront OBJ.
 
-#include "scene/mesh/obj.hpp"
+#include "scene/mesh/source.hpp"
 #include "tests/fuzz/accepts_or_refuses.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -7,7 +7,6 @@
 #include "output/mesh_writers.hpp"
 #include "output/npz_writer.hpp"
 #include "output/usd_writer.hpp"
-#include "output/vtk_writer.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scratch_folder.hpp"
 

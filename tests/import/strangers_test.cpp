@@ -4,8 +4,8 @@
 
 #include "motion/import/import_motion.hpp"
 #include "motion/reader.hpp"
+#include "output/mesh_writers.hpp"
 #include "output/npz_writer.hpp"
-#include "output/vtk_writer.hpp"
 #include "tests/import/random_motion.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/usage_error.hpp"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "motion/blocks.hpp"
-#include "motion/state_codec.hpp"
+#include "motion/encoding.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

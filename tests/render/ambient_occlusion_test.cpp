@@ -1,4 +1,4 @@
-#include "render/ambient_occlusion.hpp"
+#include "render/shadows.hpp"
 
 #include <gtest/gtest.h>
 

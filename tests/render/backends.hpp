@@ -7,7 +7,6 @@
 #include "drape/core/error.hpp"
 #include "drape/render/settings.hpp"
 #include "render/gl/context.hpp"
-#include "render/gl/inspect.hpp"
 
 namespace drape::test {
 

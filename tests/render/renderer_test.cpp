@@ -15,7 +15,6 @@
 
 #include "drape/core/error.hpp"
 #include "render/gl/context.hpp"
-#include "render/gl/inspect.hpp"
 #include "tests/render/drawing.hpp"
 
 namespace drape::test {

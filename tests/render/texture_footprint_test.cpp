@@ -1,4 +1,4 @@
-#include "render/texture_footprint.hpp"
+#include "render/draw_cloth.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -8,7 +8,7 @@
 
 #include "core/hash.hpp"
 #include "motion/blocks.hpp"
-#include "motion/header.hpp"
+#include "motion/encoding.hpp"
 
 namespace drape::test {
 

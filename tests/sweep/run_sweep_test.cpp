@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/environment.hpp"
+#include "cli/exit_code.hpp"
 #include "sweep/merge.hpp"
 #include "sweep/page.hpp"
 #include "tests/support/file_size_limit.hpp"

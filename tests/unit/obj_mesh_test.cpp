@@ -1,4 +1,4 @@
-#include "scene/mesh/obj.hpp"
+#include "scene/mesh/source.hpp"
 
 #include <gtest/gtest.h>
 

@@ -22,7 +22,6 @@
 #include "drape/render/overlay/caption.hpp"
 #include "drape/render/settings.hpp"
 #include "drape/scene/document.hpp"
-#include "drape/scene/portable.hpp"
 #include "drape/sim/schemes/method_choice.hpp"
 #include "drape/sim/settings.hpp"
 
@@ -85,6 +84,19 @@ struct Scene {
   [[nodiscard]] std::int64_t step_count() const;
 };
 
+/// A scene as one self-contained text and its files. The overrides are applied in the text, and the files have new
+/// names in it: "file-1.obj". One folder with all of them holds the whole scene, except [check], whose goldens lie
+/// beside the original file. Files that a USD file refers to keep their names without folders; UsdStage finds them
+/// there.
+struct PortableScene {
+  struct File {
+    std::string name;             ///< name in the text
+    std::filesystem::path place;  ///< path on disk
+  };
+  std::string text;  ///< in TOML
+  std::vector<File> files;
+};
+
 /// The origin of a scene, and the data that name, store and compare it.
 struct SceneSource {
   std::filesystem::path file;
@@ -131,6 +143,13 @@ std::vector<std::vector<std::string>> shared_method_overrides(const std::vector<
 /// @throws UsageError as load_scene()
 LoadedScene make_scene(TomlValue document, const std::filesystem::path& file,
                        const std::vector<std::string>& overrides = {}, Cells cells = Cells::of_quality);
+
+/// Returns the portable form of a scene.
+/// @param document document after overrides
+/// @param folder   folder of the scene
+/// @param inputs   every file read for the scene
+PortableScene make_portable(TomlValue document, const std::filesystem::path& folder,
+                            const std::vector<std::filesystem::path>& inputs);
 
 /// Returns the data folder, which holds textures/, shaders/ and scenes/: the one set by use_data_folder(), else the one
 /// installed with the program or the library (share/drape), else the source tree of the build.
