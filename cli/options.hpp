@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "output/registry.hpp"
-#include "reports/figure_style.hpp"
+#include "reports/diagram.hpp"
 #include "run/frame_source.hpp"
 #include "scene/values.hpp"
 

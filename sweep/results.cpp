@@ -13,7 +13,7 @@
 #include "core/sealed_json.hpp"
 #include "core/text.hpp"
 #include "reports/latex.hpp"
-#include "reports/latex_table.hpp"
+#include "reports/result_table.hpp"
 
 namespace drape {
 namespace {
