@@ -11,6 +11,8 @@
 #include "drape/render/renderer.hpp"
 #include "drape/render/settings.hpp"
 #include "drape/scene/scene.hpp"
+#include "output/gif_encoder.hpp"
+#include "reports/players.hpp"
 #include "run/progress.hpp"
 
 namespace drape {
@@ -68,5 +70,21 @@ class DrawFrames {
   Simulation simulation_;  // gives the positions of colliders
   Renderer renderer_;
 };
+
+class PlayedMotion;
+
+/// A film of a difference; without bytes if there is none.
+struct DifferenceAnimation {
+  PageFilm film;
+  html::PlayedMotion expected, actual;  ///< states of a changed motion, for interactive viewing
+};
+
+/// Makes a looping GIF with expected picture, actual picture and difference side by side. For a changed motion it shows
+/// the compared steps of the first changed windows, otherwise the compared frames around the first changed picture.
+/// @param folder  of the report; the file is NAME/difference.gif
+/// @throws OutputError
+DifferenceAnimation difference_animation(const Scene& scene, const Golden& golden, const SceneResult& result,
+                                         PlayedMotion* recorded, GlBackend backend,
+                                         const std::filesystem::path& folder);
 
 }  // namespace drape

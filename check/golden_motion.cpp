@@ -1,16 +1,19 @@
 #include "check/golden_motion.hpp"
 
 #include <fmt/format.h>
+#include <zlib.h>
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <new>
 #include <stdexcept>
 
 #include "check/compare_motion.hpp"
 #include "check/report.hpp"
+#include "core/hash.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "render/camera_path.hpp"
@@ -19,7 +22,95 @@
 #include "run/run_scene.hpp"
 
 namespace drape {
+
+std::string pack_words(const Words& words) {
+  const std::string planes = byte_planes(words);
+  uLongf size = compressBound(planes.size());
+  std::string packed(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(planes.data()),
+                planes.size(), Z_BEST_COMPRESSION) != Z_OK) {
+    throw std::bad_alloc();
+  }
+  packed.resize(size);
+  return std::to_string(planes.size()) + "\n" + packed;
+}
+
+Words unpack_words(std::string_view bytes, std::uint64_t most) {
+  const std::size_t line = bytes.find('\n');
+  std::size_t size = 0;
+  for (const char c : bytes.substr(0, line)) {
+    if (c < '0' || c > '9' || size > (std::size_t{1} << 40))
+      throw std::invalid_argument("has a size that cannot be read");
+    size = 10 * size + static_cast<std::size_t>(c - '0');
+  }
+  // The compression ratio of zlib is below 1100: reserve no more for a damaged file.
+  if (line == std::string_view::npos || size % 8 != 0 || size / 1100 > bytes.size()) {
+    throw std::invalid_argument("is truncated");
+  }
+  if (size / 8 > most) throw std::invalid_argument("holds more than its manifest allows");
+  bytes.remove_prefix(line + 1);
+  std::string planes(size, '\0');
+  uLongf unpacked = size;
+  uLong used = bytes.size();
+  if (uncompress2(reinterpret_cast<Bytef*>(planes.data()), &unpacked, reinterpret_cast<const Bytef*>(bytes.data()),
+                  &used) != Z_OK ||
+      unpacked != size || used != bytes.size()) {
+    throw std::invalid_argument("is damaged");
+  }
+  return from_byte_planes(planes);
+}
+
 namespace {
+
+/// Returns the number if it is finite. @throws std::invalid_argument otherwise
+double finite(double value) {
+  if (!std::isfinite(value)) throw std::invalid_argument("contains a number that is not finite");
+  return value;
+}
+
+/// Writer of numbers as words.
+class WordWriter {
+ public:
+  /// Writes a number in zigzag encoding, which maps 0, −1, 1, −2, … to small unsigned numbers.
+  void whole(std::int64_t n) { bits((static_cast<std::uint64_t>(n) << 1) ^ static_cast<std::uint64_t>(n >> 63)); }
+  void bits(std::uint64_t n) { words_.push_back(n); }
+  void number(double value) { bits(std::bit_cast<std::uint64_t>(value)); }
+  [[nodiscard]] const Words& words() const { return words_; }
+
+ private:
+  Words words_;
+};
+
+/// Reader of words.
+/// @throws std::invalid_argument at the end of the data, or for an invalid number
+class WordReader {
+ public:
+  explicit WordReader(Words words) : words_(std::move(words)) {}
+
+  std::uint64_t bits() {
+    need(1);
+    return words_[next_++];
+  }
+  std::int64_t whole() {
+    const std::uint64_t n = bits();
+    return static_cast<std::int64_t>(n >> 1) ^ -static_cast<std::int64_t>(n & 1);
+  }
+  std::int64_t whole(std::int64_t least, std::int64_t most) {
+    const std::int64_t n = whole();
+    if (n < least || n > most) throw std::invalid_argument("holds a number that makes no sense");
+    return n;
+  }
+  double number() { return finite(std::bit_cast<double>(bits())); }
+  /// Checks that enough words follow, before memory is allocated for them.
+  void need(std::uint64_t words) const {
+    if (words > words_.size() - next_) throw std::invalid_argument("is truncated");
+  }
+  [[nodiscard]] bool at_end() const { return next_ == words_.size(); }
+
+ private:
+  Words words_;
+  std::size_t next_ = 0;
+};
 
 constexpr std::string_view magic = "drape motion 2\n";
 constexpr double most_quanta = 9e18;  // a little below the limit of a signed word

@@ -15,6 +15,17 @@
 
 namespace drape {
 
+using Words = std::vector<std::uint64_t>;
+
+/// Serialises words: the most significant bytes of all words first, then the next ones, compressed by zlib. A line with
+/// the unpacked size comes first.
+std::string pack_words(const Words& words);
+
+/// Reads these bytes.
+/// @param most largest number of words; larger data are rejected before decompression
+/// @throws std::invalid_argument that describes the error in the bytes
+Words unpack_words(std::string_view bytes, std::uint64_t most);
+
 /// Serialises the windows of a golden motion and the positions of its pictures as motion.bin, without loss. A row of a
 /// vector field is stored in multiples of the field's quantum, or as raw bits if it is not a multiple. Both are stored
 /// as differences from a prediction by neighbouring vertices. Body positions are stored as second differences, those

@@ -1,85 +1,75 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "check/finding.hpp"
 #include "drape/core/error.hpp"
 #include "drape/scene/scene.hpp"
 #include "reports/players.hpp"
 
-namespace drape {
-
-using Words = std::vector<std::uint64_t>;
-
-/// Serialises words: the most significant bytes of all words first, then the next ones, compressed by zlib. A line with
-/// the unpacked size comes first.
-std::string pack_words(const Words& words);
-
-/// Reads these bytes.
-/// @param most largest number of words; larger data are rejected before decompression
-/// @throws std::invalid_argument that describes the error in the bytes
-Words unpack_words(std::string_view bytes, std::uint64_t most);
-
-/// Writer of numbers as words.
-class WordWriter {
- public:
-  /// Writes a number in zigzag encoding, which maps 0, −1, 1, −2, … to small unsigned numbers.
-  void whole(std::int64_t n) { bits((static_cast<std::uint64_t>(n) << 1) ^ static_cast<std::uint64_t>(n >> 63)); }
-  void bits(std::uint64_t n) { words_.push_back(n); }
-  void number(double value) { bits(std::bit_cast<std::uint64_t>(value)); }
-  [[nodiscard]] const Words& words() const { return words_; }
-
- private:
-  Words words_;
-};
-
-/// Reader of words.
-/// @throws std::invalid_argument at the end of the data, or for an invalid number
-class WordReader {
- public:
-  explicit WordReader(Words words) : words_(std::move(words)) {}
-
-  std::uint64_t bits() {
-    need(1);
-    return words_[next_++];
-  }
-  std::int64_t whole() {
-    const std::uint64_t n = bits();
-    return static_cast<std::int64_t>(n >> 1) ^ -static_cast<std::int64_t>(n & 1);
-  }
-  std::int64_t whole(std::int64_t least, std::int64_t most) {
-    const std::int64_t n = whole();
-    if (n < least || n > most) throw std::invalid_argument("holds a number that makes no sense");
-    return n;
-  }
-  double number();
-  /// Checks that enough words follow, before memory is allocated for them.
-  void need(std::uint64_t words) const {
-    if (words > words_.size() - next_) throw std::invalid_argument("is truncated");
-  }
-  [[nodiscard]] bool at_end() const { return next_ == words_.size(); }
-
- private:
-  Words words_;
-  std::size_t next_ = 0;
-};
-
-/// Returns the number if it is finite. @throws std::invalid_argument otherwise
-double finite(double value);
-
-}  // namespace drape
-
 // Results of a check as plain data, from which terminal output, JSON, JUnit XML and HTML page are made.
 
 namespace drape {
+
+struct SceneResult;
+
+/// Properties of a scene and its film that may differ from the golden's.
+enum class Property { mesh, vertices, step, steps, size, frame_time, frames, speed, rate, film_size, samples };
+
+/// A property that differs from the golden's: one number, a size [pixels], or the numbers of frames; for a mesh none.
+struct Difference {
+  Property of = Property::mesh;
+  std::vector<double> golden, now;
+};
+
+/// First steps that take too long.
+struct SlowSteps {
+  std::int64_t steps = 0;
+  double ratio = 0;  ///< their time relative to the golden one
+};
+
+/// Kinds of findings.
+enum class FindingKind {
+  error,  ///< the scene was not judged; the text is a message
+  no_golden,
+  first_golden,  ///< there was no golden; this check recorded it
+  recorded,
+  recorded_again,
+  method,        ///< SceneFinding::golden is the recorded method, the text today's
+  vertex_order,  ///< the vertices were matched by the first frame
+  incomparable,  ///< because of SceneFinding::difference
+  motion,        ///< SceneResult::windows
+  pictures,
+  film,          ///< SceneResult::film
+  slow,          ///< SceneResult::time
+  not_timed,     ///< time was not compared, as it depends on the instruction set
+  whole_motion,  ///< SceneResult::end_to_end
+  whole_pictures,
+  same_motion,   ///< only the pictures changed
+  same_windows,  ///< neither changed
+  elsewhere,     ///< SceneResult::recorded_on
+  scene_changed,
+  overrides,    ///< the text is the options
+  no_candidate  ///< the text is the error that prevents a candidate
+};
+
+/// A fact that a check found.
+struct SceneFinding {
+  FindingKind kind = FindingKind::error;
+  std::string text = {}, golden = {};
+  Difference difference = {};
+};
+
+/// Returns a finding without capital and full stop: "the motion changed at step 37 by 2.1 mm at vertex 213". Empty if
+/// the result lacks the values of that kind.
+std::string sentence(const SceneResult& scene, const SceneFinding& finding);
+
+/// Returns the sentences of all findings, most important first.
+std::vector<std::string> sentences(const SceneResult& scene);
 
 /// Agreement of a motion with the golden one, from best to worst.
 enum class MotionVerdict { same_bits, within_tolerance, changed };
@@ -254,5 +244,22 @@ const char* verdict_name(SceneVerdict verdict);
 /// @returns `name`/frame_0040.KIND.png for "expected", "actual", "difference" and "flip"; KIND has the prefix
 /// "end_to_end." for pictures of the whole motion
 std::filesystem::path frame_file(const SceneResult& scene, int frame, const std::string& kind);
+
+/// Returns the report as JSON: everything except the pictures, which are files beside it, see frame_file().
+std::string json_report(const CheckReport& report);
+
+/// Writes the pictures of all frames that are not exact as PNG files below a folder, named by frame_file().
+/// @throws OutputError
+void write_frame_files(const CheckReport& report, const std::filesystem::path& folder);
+
+/// Returns JUnit XML for continuous-integration servers. Each scene has a test case for its motion and one for its
+/// pictures, and two more if it was checked end to end.
+std::string junit_report(const CheckReport& report);
+
+/// Returns a check's results as Markdown for a GitHub job summary: a table of the scenes, failed ones first.
+std::string github_summary(const CheckReport& report);
+
+/// Returns a line for each failed scene, which GitHub shows beside the scene's file.
+std::string github_annotations(const CheckReport& report);
 
 }  // namespace drape

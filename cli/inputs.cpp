@@ -26,7 +26,7 @@
 #include "motion/import/import_motion.hpp"
 #include "motion/reader.hpp"
 #include "output/registry.hpp"
-#include "run/frame_player.hpp"
+#include "run/frame_source.hpp"
 #include "run/outputs.hpp"
 #include "scene/motion_scene.hpp"
 

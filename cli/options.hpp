@@ -8,7 +8,7 @@
 
 #include "drape/scene/scene.hpp"
 #include "output/registry.hpp"
-#include "reports/figure_style.hpp"
+#include "reports/diagram.hpp"
 #include "run/frame_source.hpp"
 #include "run/run_scene.hpp"
 #include "scene/values.hpp"

@@ -16,14 +16,13 @@
 #include "core/machine.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
-#include "study/homework_report.hpp"
+#include "study/homework.hpp"
 #include "study/known_answers.hpp"
-#include "study/motions_file.hpp"
+#include "study/motions.hpp"
 #include "study/scaling.hpp"
 #include "study/stability.hpp"
-#include "study/stability_report.hpp"
+#include "study/validation.hpp"
 #include "study/validation_measures.hpp"
-#include "study/validation_report.hpp"
 
 namespace drape {
 namespace {

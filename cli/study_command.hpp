@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/command_line.hpp"
-#include "reports/figure_style.hpp"
+#include "reports/diagram.hpp"
 #include "run/progress.hpp"
 #include "study/report.hpp"
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <system_error>
 
-#include "check/ci_reports.hpp"
 #include "check/html_report.hpp"
+#include "check/report.hpp"
 #include "cli/terminal.hpp"
 #include "core/console.hpp"
 #include "core/files.hpp"

@@ -9,7 +9,7 @@
 
 #include "check/manifest.hpp"
 #include "cli/command_line.hpp"
-#include "reports/figure_style.hpp"
+#include "reports/diagram.hpp"
 #include "run/run_scene.hpp"
 #include "run/statistics.hpp"
 #include "sweep/results.hpp"

@@ -19,8 +19,8 @@
 #include "drape/core/error.hpp"
 #include "study/stability.hpp"
 #include "study/validation_measures.hpp"
-#include "sweep/merge.hpp"
 #include "sweep/page.hpp"
+#include "sweep/results.hpp"
 #include "sweep/run_folder.hpp"
 #include "sweep/run_sweep.hpp"
 

@@ -19,7 +19,7 @@
 #include "output/html_writer.hpp"
 #include "output/png_encoder.hpp"
 #include "output/registry.hpp"
-#include "run/frame_player.hpp"
+#include "run/frame_source.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {

@@ -14,7 +14,7 @@
 #include "motion/vertex_order.hpp"
 #include "output/registry.hpp"
 #include "render/camera_path.hpp"
-#include "reports/figure_style.hpp"
+#include "reports/diagram.hpp"
 #include "reports/players.hpp"
 #include "run/frame_source.hpp"
 #include "run/progress.hpp"

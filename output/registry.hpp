@@ -69,7 +69,7 @@ using FilmMaker = std::function<std::unique_ptr<Sink<Item>>(const std::filesyste
 template <class Item>
 using FrameMaker = std::function<std::function<std::string(const Item&)>(const FilmInfo& film)>;
 
-/// Marks a format of all steps instead of frames, written by the run itself, see run/motion_recorder.hpp.
+/// Marks a format of all steps instead of frames, written by the run itself, see run/records.hpp.
 struct OfSteps {};
 
 /// An output format. The command line, its messages, `drape doctor` and docs/reference/outputs.md take their texts from

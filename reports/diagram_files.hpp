@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "reports/chart.hpp"
-#include "reports/figure_style.hpp"
 #include "reports/result_table.hpp"
 
 namespace drape {
@@ -54,8 +53,16 @@ ResultTable points_table(const NamedChart& chart, std::size_t every = 1);
 std::string write_diagram(const html::Diagram& diagram, const std::filesystem::path& folder, const std::string& name,
                           FigureStyle style = FigureStyle::screen);
 
+/// Returns the points of a chart as a table of numbers for pgfplots: columns x0 and y0 for the first series, x1 and y1
+/// for the second, and so on. "nan" fills short columns and marks gaps.
+std::string pgfplots_data(const html::Chart& chart);
+
+/// Returns the chart as a tikzpicture for \input, which reads NAME.dat.
+/// @param inches width
+std::string pgfplots_picture(const NamedChart& chart, double inches);
+
 /// Writes the diagram of a chart, and its points as CSV, Markdown and LaTeX; the latter two thin out long tables. For
-/// an article also writes it for pgfplots, see write_pgfplots().
+/// an article also writes NAME.dat and NAME.tikz.tex for pgfplots.
 std::string write_chart(const NamedChart& chart, const std::filesystem::path& folder,
                         FigureStyle style = FigureStyle::screen);
 

@@ -1,4 +1,4 @@
-#include "reports/latex_table.hpp"
+#include "reports/result_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,6 +14,8 @@
 namespace drape {
 namespace {
 
+/// Width of a column of an article, and of a page of two of them [pt, of 72.27 to the inch].
+constexpr double latex_column = 3.3 * 72.27, latex_page = 7 * 72.27;
 constexpr double gap = 6;  // between two columns: twice \tabcolsep [pt]
 
 /// Returns an upper estimate of a character's width in Computer Modern of 8 pt [pt].

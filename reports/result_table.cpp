@@ -10,7 +10,6 @@
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "reports/latex.hpp"
-#include "reports/latex_table.hpp"
 
 namespace drape {
 namespace {

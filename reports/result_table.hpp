@@ -33,6 +33,10 @@ std::string to_text(const ResultTable& table, std::size_t width = unlimited_widt
 std::string to_markdown(const ResultTable& table);
 /// Formats a table as RFC 4180.
 std::string to_csv(const ResultTable& table);
+/// Formats a table for \input, in letters of 8 pt; needs booktabs and array. Cells are wrapped so that the table fits a
+/// column of an article, or otherwise a page of two columns. A table too wide for that is split: each part repeats the
+/// columns that identify the rows.
+std::string to_latex(const ResultTable& table);
 /// Returns true if every non-empty cell of a column starts like a number.
 bool is_numeric(const ResultTable& table, std::size_t column);
 /// Returns the number of first columns that identify the rows; every part of a split table repeats them.

@@ -16,7 +16,6 @@
 #include "drape/core/error.hpp"
 #include "render/camera_path.hpp"
 #include "run/bounded_queue.hpp"
-#include "run/frame_player.hpp"
 #include "run/frame_source.hpp"
 #include "run/outputs.hpp"
 #include "run/shard.hpp"

@@ -16,7 +16,6 @@
 #include "motion/reader.hpp"
 #include "output/registry.hpp"
 #include "run/frame_source.hpp"
-#include "run/motion_recorder.hpp"
 #include "run/progress.hpp"
 #include "run/records.hpp"
 #include "run/statistics.hpp"

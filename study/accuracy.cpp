@@ -11,7 +11,6 @@
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 #include "study/accuracy_runs.hpp"
-#include "study/solve_error.hpp"
 
 namespace drape {
 namespace {
@@ -284,7 +283,7 @@ AccuracyOptions complete(AccuracyOptions options, const LoadedScene& scene) {
   if (options.methods.empty()) {
     options.methods.assign(step_methods.begin(), step_methods.end());
     const auto first = [](StepMethod how) { return !is_explicit(how.method) && how.scheme == TimeScheme{}; };
-    std::ranges::stable_partition(options.methods, first);
+    std::stable_partition(options.methods.begin(), options.methods.end(), first);
   }
   if (options.tolerances.empty()) options.tolerances = {1, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
   if (options.accuracies.empty()) options.accuracies = {1e-2, 1e-3, 1e-4};

@@ -13,7 +13,6 @@
 #include "run/progress.hpp"
 #include "study/measure.hpp"
 #include "study/reference.hpp"
-#include "study/solve_error.hpp"
 
 namespace drape {
 

@@ -1,4 +1,4 @@
-#include "study/accuracy_asked.hpp"
+#include "study/accuracy_report.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include "core/text.hpp"
 #include "drape/scene/scene.hpp"
 #include "reports/chart.hpp"
-#include "study/accuracy_report.hpp"
 
 namespace drape {
 namespace {

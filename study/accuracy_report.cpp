@@ -12,7 +12,6 @@
 #include "drape/scene/scene.hpp"
 #include "reports/chart.hpp"
 #include "reports/listing.hpp"
-#include "study/accuracy_asked.hpp"
 #include "study/profile.hpp"
 
 namespace drape {

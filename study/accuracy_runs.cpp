@@ -13,9 +13,8 @@
 #include "drape/scene/scene.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/animation.hpp"
-#include "study/motions_file.hpp"
+#include "study/motions.hpp"
 #include "study/runs_file.hpp"
-#include "study/solve_error.hpp"
 
 namespace drape {
 namespace {

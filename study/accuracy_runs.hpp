@@ -9,8 +9,8 @@
 #include "study/accuracy.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/animation.hpp"
+#include "study/reference.hpp"
 #include "study/report.hpp"
-#include "study/solve_error.hpp"
 
 namespace drape {
 

@@ -20,7 +20,7 @@
 #include "run/frame_source.hpp"
 #include "run/outputs.hpp"
 #include "run/run_scene.hpp"
-#include "study/reference.hpp"
+#include "study/motions.hpp"
 
 namespace drape {
 namespace {

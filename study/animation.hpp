@@ -12,9 +12,10 @@
 #include "drape/scene/scene.hpp"
 #include "output/gif_encoder.hpp"
 #include "render/camera_path.hpp"
+#include "reports/players.hpp"
 #include "run/progress.hpp"
 #include "study/reference.hpp"
-#include "study/solve_error.hpp"
+#include "study/runs_file.hpp"
 
 namespace drape {
 

@@ -40,9 +40,6 @@ enum class Extra : std::size_t {
 };
 std::vector<StudyCase> homework_extras();
 
-/// Returns the case of the report's energy log: semi-implicit, k = 180, undamped, 20 steps.
-StudyCase homework_energy_case();
-
 /// A conclusion of the homework's report, and its confirmation here.
 struct Conclusion {
   std::string claim;
@@ -65,5 +62,20 @@ struct HomeworkStudy {
 /// Measures the homework's tables, with `runs` timed runs of every case.
 /// @returns nothing if stopped
 std::optional<HomeworkStudy> study_homework(RunCount runs, const std::stop_token& stop, Progress& progress);
+
+/// Tests each conclusion of the report.
+/// @param rows   homework_rows()
+/// @param tables measurements of these rows, in the same order
+/// @param extras measurements of homework_extras()
+std::vector<Conclusion> judge_conclusions(const std::vector<HomeworkRow>& rows, const std::vector<Measured>& tables,
+                                          const std::vector<Measured>& extras);
+
+/// Returns the row of a table with this method and tolerance; "" matches any tolerance.
+/// @throws std::out_of_range if there is none
+std::size_t find_row(const std::vector<HomeworkRow>& rows, int table, const std::string& method,
+                     const std::string& tolerance = "");
+
+/// Returns the report of a study for all output formats.
+StudyReport homework_report(const HomeworkStudy& study);
 
 }  // namespace drape

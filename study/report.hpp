@@ -10,7 +10,7 @@
 #include "reports/components.hpp"
 #include "reports/diagram_files.hpp"
 #include "reports/result_table.hpp"
-#include "study/reference.hpp"
+#include "study/motions.hpp"
 #include "study/stability_map.hpp"
 
 namespace drape {

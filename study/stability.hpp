@@ -10,17 +10,11 @@
 #include "drape/sim/settings.hpp"
 #include "run/progress.hpp"
 #include "run/shard.hpp"
-#include "study/energy_over_time.hpp"
-#include "study/reference.hpp"
+#include "study/motions.hpp"
 
 namespace drape {
 
-/// Returns two motions of the stability maps' cloth by semi-implicit Euler, with 0.95 and 1.2 times the safe step. The
-/// second ends early, with its blow-up.
-std::vector<StudyMotion> limit_motions();
-
-/// Describes them in a sentence.
-std::string describe_limit_motions();
+struct StudyReport;
 
 /// The outcome of a run with one step length and one stiffness.
 enum class StabilityOutcome {
@@ -62,6 +56,14 @@ struct StabilityLimit {
   double stiffness = 0;  ///< stiffness in the unit of the axis
   double predicted = 0;  ///< stability_limit() [s]
   double measured = 0;   ///< longest step without a blow-up in 2000 steps, to 0.2 % [s]
+};
+
+/// Energy of a cloth over time, for a method and a step length.
+struct EnergyCurve {
+  StepMethod method = Method::verlet;
+  double step = 0;                    ///< step length h [s]
+  std::vector<double> times = {};     ///< [s]
+  std::vector<double> energies = {};  ///< change of K + E + gravity's, over the largest drop of gravity's [1]
 };
 
 /// Resolution of a study.
@@ -130,5 +132,12 @@ struct MergedStability {
 /// @param files at least one
 /// @throws UsageError if a file is damaged, or they belong to different studies or programs
 MergedStability merge_stability(const std::vector<std::filesystem::path>& files);
+
+/// Returns the report of a study for all output formats.
+StudyReport stability_report(const StabilityStudy& study);
+
+/// Returns two motions of the stability maps' cloth by semi-implicit Euler, with 0.95 and 1.2 times the safe step. The
+/// second ends early, with its blow-up.
+std::vector<StudyMotion> limit_motions();
 
 }  // namespace drape

@@ -1,11 +1,15 @@
-#include "study/stability_report.hpp"
+#include "study/stability.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "drape/core/error.hpp"
 #include "drape/scene/scene.hpp"
-#include "study/stability.hpp"
+#include "drape/sim/simulation.hpp"
+#include "reports/chart.hpp"
+#include "study/report.hpp"
 
 namespace drape {
 namespace {
@@ -61,7 +65,87 @@ StudySection section(const StabilityStudy& study, StabilityAxis axis, const char
   return section;
 }
 
+std::string name_of(const EnergyCurve& curve) {
+  return fmt::format("{}, h = {:g} s", step_method_name(curve.method), curve.step);
+}
+
+NamedChart energy_chart(const std::vector<EnergyCurve>& curves) {
+  html::Chart chart{"Energy of a cloth that swings without damping, relative to the energy exchanged with gravity.",
+                    "time [s]",
+                    "energy gained, relative to energy exchanged",
+                    html::Scale::linear,
+                    html::Scale::linear,
+                    {},
+                    {}};
+  for (const EnergyCurve& curve : curves) {
+    html::ChartSeries series = method_series(step_method_name(curve.method));
+    series.name = name_of(curve);
+    series.markers = false;
+    // Colours show the scheme here; the long step is dashed.
+    if (curve.method.scheme == TimeScheme::sdirk2) series.style = 5;
+    series.other = curve.step > 0.01;
+    for (std::size_t i = 0; i < curve.times.size(); ++i) {
+      series.points.push_back({curve.times[i],
+                               curve.energies[i],
+                               fmt::format("{:.1f} s: {:.2g}", curve.times[i], curve.energies[i]),
+                               {},
+                               {}});
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return {"energy-over-time", std::move(chart)};
+}
+
+/// Returns a sentence about the energy left at the end.
+std::string describe_energies(const std::vector<EnergyCurve>& curves) {
+  std::string text = "After eight seconds ";
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const double end = curves[i].energies.back();
+    text += fmt::format("{}{} has {} {:.2g} % of the energy exchanged with gravity", i == 0 ? "" : ", ",
+                        name_of(curves[i]), end < 0 ? "lost" : "gained", 100 * std::abs(end));
+  }
+  return text + ".";
+}
+
+constexpr double stiffness = 100;  // stiffness of the springs [N/m]
+constexpr double below = 0.95, beyond = 1.2;
+constexpr int limit_steps = 99;  // few enough to make every state a frame
+constexpr double far_away = 3;   // in cloth sizes
+
+StudyMotion limit_motion(double factor) {
+  const double safe = stability_limit(Method::semi_implicit, StabilityAxis::springs, stiffness);
+  Scene scene;
+  scene.name = "stability";
+  scene.simulation = stability_cloth(Method::semi_implicit, StabilityAxis::springs, factor * safe, stiffness);
+  scene.look.mesh_lines = true;
+  const Vertices& at_first = scene.simulation.cloth.positions;
+  const double size = (at_first.colwise().maxCoeff() - at_first.colwise().minCoeff()).norm();
+  StudyMotionRecorder recorder(scene);
+  Simulation simulation(scene.simulation);
+  recorder.add(simulation);
+  try {
+    for (int step = 0; step < limit_steps; ++step) {
+      simulation.step();
+      recorder.add(simulation);
+      if (!((simulation.state().x - at_first).cwiseAbs().maxCoeff() < far_away * size)) break;
+    }
+  } catch (const DivergedError&) {
+    if (simulation.state().x.allFinite()) recorder.add(simulation);  // the last finite state
+  }
+  return {fmt::format("semi-implicit, {} of the safe step", factor), {}, recorder.finish()};
+}
+
+/// Describes limit_motions() in a sentence.
+std::string describe_limit_motions() {
+  return fmt::format(
+      "Two motions of that cloth with springs of {:g} N/m, by semi-implicit Euler: with {:g} of the safe step it "
+      "swings, with {:g} of it the fastest oscillation grows in every step until the motion blows up.",
+      stiffness, below, beyond);
+}
+
 }  // namespace
+
+std::vector<StudyMotion> limit_motions() { return {limit_motion(below), limit_motion(beyond)}; }
 
 StudyReport stability_report(const StabilityStudy& study) {
   StudyReport report;

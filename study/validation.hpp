@@ -11,9 +11,11 @@
 
 #include "run/progress.hpp"
 #include "run/shard.hpp"
-#include "study/reference.hpp"
+#include "study/motions.hpp"
 
 namespace drape {
+
+struct StudyReport;
 
 /// A known value of a problem.
 struct KnownAnswer {
@@ -152,5 +154,24 @@ bool measure_validation(ValidationStudy& study, const ValidationOptions& options
 
 /// Returns the distance of a value from an answer, in tolerances.
 double in_tolerances(const KnownAnswer& answer, double value);
+
+/// The outcome of a case.
+struct ValidationVerdict {
+  bool met = false;             ///< every answer is within its tolerance
+  int answers = 0, missed = 0;  ///< measured answers; of these, those without a value or beyond their tolerance
+  double worst = 0;             ///< largest |measured − value|/tolerance
+  std::string worst_problem, worst_answer;
+  double seconds = 0;  ///< CPU time of all problems
+};
+
+/// Returns the outcome of a case for scene_factor or default_factor.
+ValidationVerdict verdict_of(const ValidationStudy& study, const ValidationCase& of, const std::string& factor);
+
+/// Returns true if every measured case is met.
+bool all_met(const ValidationStudy& study);
+
+/// Returns a report on whether each case's scene meets its answers, with the errors of the defaults and computing
+/// times.
+StudyReport validation_report(const ValidationStudy& study);
 
 }  // namespace drape

@@ -13,7 +13,7 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "study/known_answers.hpp"
-#include "study/motions_file.hpp"
+#include "study/motions.hpp"
 #include "study/runs_file.hpp"
 
 namespace drape {

@@ -1,4 +1,4 @@
-#include "study/validation_report.hpp"
+#include "study/validation.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "study/known_answers.hpp"
+#include "study/report.hpp"
 
 namespace drape {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr double least_shown = 1e-3;  // smallest error shown on a logarithmic axis, in tolerances
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-std::string figure(double value) {
+std::string figure_text(double value) {
   if (!std::isfinite(value)) return "–";
   return value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e5) ? fmt::format("{:.2e}", value)
                                                                           : fmt::format("{:.5g}", value);
@@ -62,10 +63,10 @@ ResultTable answers_table(const ValidationStudy& study, const ValidationCase& of
       const double by_default = otherwise != nullptr && otherwise->failure.empty()
                                     ? otherwise->value(one.answer->name).value_or(not_known)
                                     : not_known;
-      table.rows.push_back({problem.name, one.answer->name, figure(one.answer->value), figure(one.value),
-                            figure(one.error()), figure(one.answer->tolerance),
+      table.rows.push_back({problem.name, one.answer->name, figure_text(one.answer->value), figure_text(one.value),
+                            figure_text(one.error()), figure_text(one.answer->tolerance),
                             one.tolerances() <= 1 ? "met" : "not met", seconds_text(run->seconds),
-                            figure(std::abs(by_default - one.answer->value)),
+                            figure_text(std::abs(by_default - one.answer->value)),
                             otherwise == nullptr ? "–" : seconds_text(otherwise->seconds)});
     }
     if (!run->failure.empty()) table.notes.push_back(fmt::format("{}: {}", problem.name, run->failure));
@@ -87,9 +88,10 @@ ResultTable factors_table(const ValidationStudy& study, const ValidationCase& of
     if (!run.measured || run.name != of.name || run.factor == scene_factor || run.factor == default_factor) continue;
     if (!run.failure.empty()) table.notes.push_back(fmt::format("{} {}: {}", run.factor, run.setting, run.failure));
     for (const FoundAnswer& one : found_answers(of.problem(run.problem), run)) {
-      table.rows.push_back({run.factor, run.setting, run.problem, one.answer->name, figure(one.value),
-                            figure(one.error()), three_digits(one.tolerances()), figure(run.step), figure(run.cell),
-                            fmt::format("{}", run.vertices), fmt::format("{}", run.capped), seconds_text(run.seconds)});
+      table.rows.push_back({run.factor, run.setting, run.problem, one.answer->name, figure_text(one.value),
+                            figure_text(one.error()), three_digits(one.tolerances()), figure_text(run.step),
+                            figure_text(run.cell), fmt::format("{}", run.vertices), fmt::format("{}", run.capped),
+                            seconds_text(run.seconds)});
     }
   }
   return table;
@@ -114,7 +116,7 @@ html::ChartSeries theory_series(const ValidationCase& of, const ValidationCurve&
   for_answers_on(of, curve, [&](const ValidationProblem&, const KnownAnswer& answer) {
     low = std::min(low, answer.x);
     high = std::max(high, answer.x);
-    theory.points.push_back({answer.x, answer.value, fmt::format("known: {}", figure(answer.value)), {}, {}});
+    theory.points.push_back({answer.x, answer.value, fmt::format("known: {}", figure_text(answer.value)), {}, {}});
   });
   std::ranges::stable_sort(theory.points, {}, &html::ChartPoint::x);
   const KnownCurve known = known_curve(of.name, curve.name);
@@ -132,7 +134,8 @@ html::ChartSeries theory_series(const ValidationCase& of, const ValidationCurve&
   constexpr int parts = 80;
   for (int k = 0; k <= parts; ++k) {
     const double x = low + (high - low) * k / parts;
-    theory.points.push_back({x, known.value(x), fmt::format("{}: {}", figure(x), figure(known.value(x))), {}, {}});
+    theory.points.push_back(
+        {x, known.value(x), fmt::format("{}: {}", figure_text(x), figure_text(known.value(x))), {}, {}});
   }
   return theory;
 }
@@ -148,11 +151,12 @@ html::ChartSeries found_series(const ValidationStudy& study, const ValidationCas
     const std::optional<double> value = run == nullptr ? std::nullopt : run->value(answer.name);
     if (!value) return;
     if (!found.points.empty()) found.points.push_back({answer.x, not_known, {}, {}, {}});
-    found.points.push_back({answer.x,
-                            *value,
-                            fmt::format("{}: {}, known {}", problem.name, figure(*value), figure(answer.value)),
-                            run->what.command(),
-                            {}});
+    found.points.push_back(
+        {answer.x,
+         *value,
+         fmt::format("{}: {}, known {}", problem.name, figure_text(*value), figure_text(answer.value)),
+         run->what.command(),
+         {}});
   });
   return found;
 }

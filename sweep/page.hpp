@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "reports/diagram_files.hpp"
-#include "reports/figure_style.hpp"
 #include "reports/players.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/results.hpp"

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "sweep/run_folder.hpp"
 
 namespace drape {
+
+/// The file that marks the folder of a sweep and of its shards, see parts_in().
+inline constexpr const char* sweep_mark = "sweep.json";
 
 /// The contents of sweep.json, which identifies a sweep's folder.
 struct SweepFile {
@@ -23,6 +27,15 @@ void write_sweep_file(const std::filesystem::path& folder, const SweepFile& file
 /// Reads sweep.json. @returns nothing if there is none
 /// @throws UsageError if it is damaged or of another format version
 std::optional<SweepFile> read_sweep_file(const std::filesystem::path& folder);
+
+/// Merges the runs of several parts into one folder, as if one process had run them all. If several parts have a run, a
+/// settled one wins. Files are hard links if the file system supports them, otherwise copies.
+/// @param stop checked between runs; the remaining runs are then skipped
+/// @returns the whole sweep
+/// @throws UsageError  if the parts belong to different sweeps
+/// @throws OutputError
+SweepFile merge_sweeps(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
+                       const std::stop_token& stop = {});
 
 /// A property that varies between runs: the scene, a key, or several zipped keys.
 struct SweepAxis {

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "check/ci_reports.hpp"
 #include "check/html_report.hpp"
+#include "check/report.hpp"
 #include "cli/exit_code.hpp"
 #include "core/text.hpp"
 #include "tests/check/checked_scene.hpp"

@@ -6,7 +6,6 @@
 
 #include "check/golden_motion.hpp"
 #include "check/manifest.hpp"
-#include "check/step_time.hpp"
 #include "output/png_encoder.hpp"
 #include "tests/check/checked_scene.hpp"
 #include "tests/support/synthetic_film.hpp"

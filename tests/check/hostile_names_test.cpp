@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "check/ci_reports.hpp"
 #include "check/html_report.hpp"
+#include "check/report.hpp"
 #include "core/text.hpp"
 #include "tests/support/hostile_names.hpp"
 

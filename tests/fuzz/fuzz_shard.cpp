@@ -1,8 +1,8 @@
 // check.cbor of a check's shard with a valid checksum, and the reports made of it.
 
-#include "check/ci_reports.hpp"
 #include "check/html_report.hpp"
 #include "check/manifest.hpp"
+#include "check/report.hpp"
 #include "core/installation.hpp"
 #include "tests/fuzz/accepts_or_refuses.hpp"
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "check/ci_reports.hpp"
 #include "check/html_report.hpp"
 #include "check/manifest.hpp"
+#include "check/report.hpp"
 #include "tests/html/sample_check.hpp"
 
 namespace drape {

@@ -6,9 +6,9 @@
 #include "reports/chart.hpp"
 #include "reports/components.hpp"
 #include "reports/latex.hpp"
-#include "reports/latex_table.hpp"
 #include "reports/page.hpp"
 #include "reports/players.hpp"
+#include "reports/result_table.hpp"
 #include "tests/html/html_page.hpp"
 
 // Pages on paper, in a narrow window, and in the clipboard.

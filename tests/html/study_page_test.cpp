@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "reports/listing.hpp"
-#include "study/homework_report.hpp"
+#include "study/homework.hpp"
 #include "tests/html/html_page.hpp"
 
 namespace drape {

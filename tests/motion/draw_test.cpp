@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "run/frame_player.hpp"
+#include "run/frame_source.hpp"
 #include "run/outputs.hpp"
 #include "run/run_scene.hpp"
 #include "tests/motion/recorded.hpp"

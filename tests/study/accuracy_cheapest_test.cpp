@@ -1,4 +1,4 @@
-#include "study/accuracy_asked.hpp"
+#include "study/accuracy_report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "study/accuracy_asked.hpp"
+#include "study/accuracy_report.hpp"
 #include "tests/study/invented_study.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scene_folder.hpp"

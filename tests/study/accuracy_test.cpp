@@ -8,7 +8,7 @@
 #include "drape/sim/effects/ground.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/animation.hpp"
-#include "study/solve_error.hpp"
+#include "study/reference.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {

@@ -6,7 +6,6 @@
 #include "drape/scene/scene.hpp"
 #include "drape/sim/effects/gravity.hpp"
 #include "study/reference.hpp"
-#include "study/solve_error.hpp"
 
 #ifdef DRAPE_HAS_CVODE
 #include <cvode/cvode.h>

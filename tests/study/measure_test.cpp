@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "study/homework.hpp"
-#include "study/homework_report.hpp"
 
 namespace drape {
 namespace {

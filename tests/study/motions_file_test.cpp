@@ -1,12 +1,12 @@
-#include "study/motions_file.hpp"
+#include "study/motions.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "study/accuracy_runs.hpp"
+#include "study/validation.hpp"
 #include "study/validation_measures.hpp"
-#include "study/validation_report.hpp"
 #include "tests/study/invented_study.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"

@@ -9,8 +9,7 @@
 #include "reports/chart.hpp"
 #include "reports/diagram_files.hpp"
 #include "reports/latex.hpp"
-#include "reports/latex_table.hpp"
-#include "reports/pgfplots.hpp"
+#include "reports/result_table.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 

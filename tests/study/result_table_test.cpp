@@ -1,4 +1,4 @@
-#include "reports/latex_table.hpp"
+#include "reports/result_table.hpp"
 
 #include <gtest/gtest.h>
 

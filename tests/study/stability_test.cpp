@@ -1,4 +1,4 @@
-#include "study/stability_report.hpp"
+#include "study/stability.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "study/solve_error.hpp"
+#include "study/reference.hpp"
 
 #include <gtest/gtest.h>
 

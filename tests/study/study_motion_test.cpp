@@ -1,4 +1,4 @@
-#include "study/reference.hpp"
+#include "study/motions.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -11,8 +11,8 @@
 
 #include "drape/scene/scene.hpp"
 #include "study/known_answers.hpp"
+#include "study/report.hpp"
 #include "study/validation_measures.hpp"
-#include "study/validation_report.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"
 

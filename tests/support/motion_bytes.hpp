@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "check/report.hpp"
+#include "check/golden_motion.hpp"
 
 namespace drape::test {
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "cli/exit_code.hpp"
-#include "sweep/merge.hpp"
 #include "sweep/page.hpp"
+#include "sweep/results.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/files.hpp"
 #include "tests/sweep/sweep_runs.hpp"
