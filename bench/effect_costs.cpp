@@ -1,4 +1,4 @@
-#include "bench/effect_costs.hpp"
+#include "bench/ratio_table.hpp"
 
 #include <fmt/format.h>
 #include <memory>
@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "bench/moving_cloth.hpp"
-#include "bench/ratio_table.hpp"
 #include "drape/sim/effects/bending.hpp"
 #include "drape/sim/effects/body.hpp"
 #include "drape/sim/effects/gravity.hpp"

@@ -1,4 +1,4 @@
-#include "bench/time_schemes.hpp"
+#include "bench/ratio_table.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/CholmodSupport>
@@ -10,9 +10,7 @@
 #include <utility>
 
 #include "bench/moving_cloth.hpp"
-#include "bench/ratio_table.hpp"
 #include "bench/textbook.hpp"
-#include "bench/xpbd.hpp"
 #include "drape/sim/effects/damping.hpp"
 #include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/sphere.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 
-#include "bench/xpbd.hpp"
+#include "bench/textbook.hpp"
 #include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/wind.hpp"
