@@ -7,7 +7,7 @@
 #include <cmath>
 #include <new>
 
-#include "core/hash.hpp"
+#include "core/bytes.hpp"
 
 namespace drape {
 

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "cli/environment.hpp"
-#include "core/build_info.hpp"
 #include "core/console.hpp"
+#include "core/installation.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "scene/tables.hpp"

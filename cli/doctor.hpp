@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/build_info.hpp"
+#include "core/installation.hpp"
 #include "core/machine.hpp"
 #include "drape/render/settings.hpp"
 #include "render/gl/inspect.hpp"

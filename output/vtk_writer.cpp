@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/base64.hpp"
+#include "core/bytes.hpp"
 #include "core/text.hpp"
 #include "drape/sim/mesh.hpp"
 #include "output/mesh_writers.hpp"

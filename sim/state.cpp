@@ -1,6 +1,6 @@
 #include "drape/sim/state.hpp"
 
-#include "core/hash.hpp"
+#include "core/bytes.hpp"
 
 namespace drape {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "core/base64.hpp"
+#include "core/bytes.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "study/runs_file.hpp"

@@ -9,8 +9,8 @@
 #include <set>
 #include <thread>
 
-#include "core/build_info.hpp"
 #include "core/files.hpp"
+#include "core/installation.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "core/build_info.hpp"
+#include "core/installation.hpp"
 
 namespace drape {
 namespace {
