@@ -11,8 +11,8 @@
 
 #include "bench/moving_cloth.hpp"
 #include "bench/textbook.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/damping.hpp"
-#include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/linear/multifrontal_cholesky.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "drape/scene/scene.hpp"
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/simulation.hpp"
 #include "reports/chart.hpp"
 #include "run/run_scene.hpp"

@@ -15,7 +15,7 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "drape/scene/scene.hpp"
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/simulation.hpp"

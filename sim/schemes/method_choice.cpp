@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "drape/sim/effects/internal_damping.hpp"
+#include "drape/sim/effects/damping.hpp"
 #include "sim/schemes/damping_kick.hpp"
 #include "sim/schemes/stability_guard.hpp"
 #include "sim/stability.hpp"

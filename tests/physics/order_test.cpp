@@ -7,9 +7,9 @@
 #include <map>
 
 #include "bench/textbook.hpp"
+#include "drape/sim/effects/air.hpp"
 #include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
-#include "drape/sim/effects/wind.hpp"
 #include "drape/sim/simulation.hpp"
 #include "tests/physics/contact_settings.hpp"
 #include "tests/support/plain_springs.hpp"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "sim/schemes/sdirk2.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "drape/sim/effects/bending.hpp"
+#include "drape/sim/effects/damping.hpp"
 #include "drape/sim/effects/ground.hpp"
-#include "drape/sim/effects/internal_damping.hpp"
 #include "sim/linear/newton_cholesky.hpp"
 #include "sim/linear/newton_solver.hpp"
 #include "sim/step_dissipation.hpp"
