@@ -11,13 +11,13 @@
 #include <string_view>
 #include <utility>
 
+#include "drape/sim/cloth.hpp"
 #include "scene/mesh_value.hpp"
 #include "scene/seam_reader.hpp"
 #include "scene/selection.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/values.hpp"
 #include "sim/spring_network.hpp"
-#include "sim/woven_cloth.hpp"
 
 namespace drape {
 namespace {

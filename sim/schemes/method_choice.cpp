@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "drape/sim/effects/damping.hpp"
-#include "sim/schemes/damping_kick.hpp"
+#include "sim/dashpots.hpp"
 #include "sim/schemes/stability_guard.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"

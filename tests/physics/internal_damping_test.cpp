@@ -18,7 +18,6 @@
 #include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/dashpots.hpp"
-#include "sim/schemes/damping_kick.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 #include "tests/support/meshes.hpp"
