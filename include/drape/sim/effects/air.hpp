@@ -12,8 +12,6 @@
 
 namespace drape {
 
-class Keys;
-
 /// Parameters of a wind's gusts.
 struct GustValues {
   double speed = 0;     ///< largest change of each component of the wind; 0: no gusts [m/s]
