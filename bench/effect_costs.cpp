@@ -1,4 +1,4 @@
-#include "bench/effect_costs.hpp"
+#include "bench/ratio_table.hpp"
 
 #include <fmt/format.h>
 #include <memory>
@@ -6,17 +6,16 @@
 #include <utility>
 
 #include "bench/moving_cloth.hpp"
-#include "bench/ratio_table.hpp"
+#include "drape/sim/effects/acceleration.hpp"
+#include "drape/sim/effects/air.hpp"
 #include "drape/sim/effects/bending.hpp"
 #include "drape/sim/effects/body.hpp"
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/damping.hpp"
 #include "drape/sim/effects/ground.hpp"
-#include "drape/sim/effects/internal_damping.hpp"
 #include "drape/sim/effects/pressure.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
-#include "drape/sim/effects/wind.hpp"
 #include "drape/sim/simulation.hpp"
 
 namespace drape {

@@ -1,4 +1,11 @@
-#include "bench/output.hpp"
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavfilter/avfilter.h>
+#include <libavfilter/buffersink.h>
+#include <libavfilter/buffersrc.h>
+#include <libavformat/avformat.h>
+#include <libavutil/log.h>
+}
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -6,7 +13,10 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "bench/ratio_table.hpp"
 #include "core/files.hpp"
@@ -85,80 +95,6 @@ std::vector<std::string> register_drawing() {
   return names;
 }
 
-namespace {
-
-/// The first hundred frames of the homework's fourth film, drawn once for both encoders.
-const std::vector<Image>& film() {
-  static const std::vector<Image> images = [] {
-    const Scene scene = load_scene(data_folder() / "scenes/homework/4.toml", {});
-    const SimulationSettings& settings = scene.simulation;
-    const std::int64_t steps = std::llround(scene.duration / settings.step);
-    const FilmExtent extent(scene.video, settings.step, steps, FrameRange{0, 99});
-    std::vector<Frame> frames;
-    FrameSampler sampler(extent, [&](Frame frame) { frames.push_back(std::move(frame)); });
-    const std::array<StepObserver*, 1> observers{&sampler};
-    Simulation simulation(settings);
-    run_steps(simulation, extent.steps, observers, {});
-
-    const Eigen::Vector2i size = scene.video.size;
-    Framing framing(scene.camera, static_cast<double>(size.x()) / size.y());
-    for (const Frame& frame : frames) framing.add(frame.positions);
-    Renderer renderer(data_folder(), size, framing.view(), scene.look, settings.cloth.vertex_count(),
-                      settings.cloth.triangles, scene.uvs);
-    std::vector<Image> drawn;
-    for (const Frame& frame : frames) drawn.push_back(renderer.draw(frame));
-    return drawn;
-  }();
-  return images;
-}
-
-constexpr int film_rate = 25, frame_count = 100;
-
-Subject make_drape() {
-  return {.restore = [] {},
-          .run =
-              [] {
-                const auto file =
-                    std::filesystem::temp_directory_path() / fmt::format("drape-bench-{}.gif", ::getpid());
-                GifEncoder encoder(file, film_rate, {});
-                for (const Image& image : film()) encoder.add(image);
-                const bool written = encoder.finish(Ending::complete).size() == 1;
-                std::filesystem::remove(file);
-                return written ? frame_count : 0;
-              }};
-}
-
-Subject make_ffmpeg() {
-  return {.restore = [] {}, .run = [] { return encode_gif_by_ffmpeg(film(), film_rate) > 0 ? frame_count : 0; }};
-}
-
-}  // namespace
-
-std::vector<std::string> register_encoding() {
-  const std::string name = "gif_frame/scene_4";
-  register_subject(name, "drape", frame_count, make_drape);
-  register_subject(name, "ffmpeg", frame_count, make_ffmpeg);
-  return {name};
-}
-
-}  // namespace drape
-
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavfilter/avfilter.h>
-#include <libavfilter/buffersink.h>
-#include <libavfilter/buffersrc.h>
-#include <libavformat/avformat.h>
-#include <libavutil/log.h>
-}
-
-#include <fmt/format.h>
-
-#include <memory>
-#include <stdexcept>
-#include <string>
-
-namespace drape {
 namespace {
 
 struct Free {
@@ -275,8 +211,10 @@ class Writer {
   Owned<AVPacket> packet_;
 };
 
-}  // namespace
-
+/// Encodes a film as a GIF in memory with FFmpeg's defaults: palettegen over all frames, then paletteuse, the GIF
+/// encoder and the muxer, in one thread.
+/// @returns the size of the GIF [bytes]
+/// @throws std::runtime_error
 std::size_t encode_gif_by_ffmpeg(const std::vector<Image>& film, int fps) {
   av_log_set_level(AV_LOG_QUIET);
   const int width = film[0].width, height = film[0].height;
@@ -297,6 +235,60 @@ std::size_t encode_gif_by_ffmpeg(const std::vector<Image>& film, int fps) {
   push(graph, "buffer@film", nullptr);
   write_ready();
   return writer.finish();
+}
+
+/// The first hundred frames of the homework's fourth film, drawn once for both encoders.
+const std::vector<Image>& film() {
+  static const std::vector<Image> images = [] {
+    const Scene scene = load_scene(data_folder() / "scenes/homework/4.toml", {});
+    const SimulationSettings& settings = scene.simulation;
+    const std::int64_t steps = std::llround(scene.duration / settings.step);
+    const FilmExtent extent(scene.video, settings.step, steps, FrameRange{0, 99});
+    std::vector<Frame> frames;
+    FrameSampler sampler(extent, [&](Frame frame) { frames.push_back(std::move(frame)); });
+    const std::array<StepObserver*, 1> observers{&sampler};
+    Simulation simulation(settings);
+    run_steps(simulation, extent.steps, observers, {});
+
+    const Eigen::Vector2i size = scene.video.size;
+    Framing framing(scene.camera, static_cast<double>(size.x()) / size.y());
+    for (const Frame& frame : frames) framing.add(frame.positions);
+    Renderer renderer(data_folder(), size, framing.view(), scene.look, settings.cloth.vertex_count(),
+                      settings.cloth.triangles, scene.uvs);
+    std::vector<Image> drawn;
+    for (const Frame& frame : frames) drawn.push_back(renderer.draw(frame));
+    return drawn;
+  }();
+  return images;
+}
+
+constexpr int film_rate = 25, frame_count = 100;
+
+Subject make_drape() {
+  return {.restore = [] {},
+          .run =
+              [] {
+                const auto file =
+                    std::filesystem::temp_directory_path() / fmt::format("drape-bench-{}.gif", ::getpid());
+                GifEncoder encoder(file, film_rate, {});
+                for (const Image& image : film()) encoder.add(image);
+                const bool written = encoder.finish(Ending::complete).size() == 1;
+                std::filesystem::remove(file);
+                return written ? frame_count : 0;
+              }};
+}
+
+Subject make_ffmpeg() {
+  return {.restore = [] {}, .run = [] { return encode_gif_by_ffmpeg(film(), film_rate) > 0 ? frame_count : 0; }};
+}
+
+}  // namespace
+
+std::vector<std::string> register_encoding() {
+  const std::string name = "gif_frame/scene_4";
+  register_subject(name, "drape", frame_count, make_drape);
+  register_subject(name, "ffmpeg", frame_count, make_ffmpeg);
+  return {name};
 }
 
 }  // namespace drape

@@ -8,14 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/effect_costs.hpp"
 #include "bench/moving_cloth.hpp"
-#include "bench/output.hpp"
 #include "bench/ratio_table.hpp"
 #include "bench/textbook.hpp"
-#include "bench/time_schemes.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/damping.hpp"
-#include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/simulation.hpp"
 
 namespace drape {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bench/moving_cloth.hpp"
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/parallel/vectors.hpp"

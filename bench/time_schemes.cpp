@@ -1,4 +1,4 @@
-#include "bench/time_schemes.hpp"
+#include "bench/ratio_table.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/CholmodSupport>
@@ -10,11 +10,9 @@
 #include <utility>
 
 #include "bench/moving_cloth.hpp"
-#include "bench/ratio_table.hpp"
 #include "bench/textbook.hpp"
-#include "bench/xpbd.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/damping.hpp"
-#include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/linear/multifrontal_cholesky.hpp"

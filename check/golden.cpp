@@ -17,8 +17,8 @@
 #include "check/golden_motion.hpp"
 #include "check/manifest.hpp"
 #include "check/picture.hpp"
+#include "core/bytes.hpp"
 #include "core/files.hpp"
-#include "core/hash.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 

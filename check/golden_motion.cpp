@@ -13,7 +13,7 @@
 
 #include "check/compare_motion.hpp"
 #include "check/report.hpp"
-#include "core/hash.hpp"
+#include "core/bytes.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "render/camera_path.hpp"

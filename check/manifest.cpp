@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "check/name_difference.hpp"
-#include "core/hash.hpp"
+#include "core/bytes.hpp"
 #include "core/installation.hpp"
 #include "core/sealed_json.hpp"
 #include "core/text.hpp"

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/build_info.hpp"
+#include "core/installation.hpp"
 #include "core/machine.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/strain_limit.hpp"

@@ -16,7 +16,6 @@
 #include <system_error>
 #include <vector>
 
-#include "core/build_info.hpp"
 #include "core/console.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "cli/command_line.hpp"
-#include "core/build_info.hpp"
 #include "core/console.hpp"
 #include "core/files.hpp"
 #include "core/installation.hpp"

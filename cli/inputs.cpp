@@ -16,7 +16,6 @@
 
 #include "cli/options.hpp"
 #include "cli/terminal.hpp"
-#include "core/build_info.hpp"
 #include "core/files.hpp"
 #include "core/installation.hpp"
 #include "core/text.hpp"

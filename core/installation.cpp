@@ -15,10 +15,11 @@
 #include <system_error>
 #include <utility>
 
+#include "core/bytes.hpp"
 #include "core/files.hpp"
-#include "core/hash.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
+#include "drape_revision.hpp"
 
 namespace drape {
 namespace {
@@ -76,6 +77,15 @@ std::vector<std::pair<std::string, std::string>> portable_variables() {
 }
 
 }  // namespace
+
+const BuildInfo& build_info() {
+#ifdef __clang__
+  static const BuildInfo info{DRAPE_VERSION, DRAPE_REVISION, DRAPE_DATE, "Clang " __clang_version__, DRAPE_BUILD_TYPE};
+#else
+  static const BuildInfo info{DRAPE_VERSION, DRAPE_REVISION, DRAPE_DATE, "GCC " __VERSION__, DRAPE_BUILD_TYPE};
+#endif
+  return info;
+}
 
 std::filesystem::path program_file() {
   std::error_code error;

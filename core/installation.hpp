@@ -8,6 +8,18 @@
 
 namespace drape {
 
+/// Origin of this binary.
+struct BuildInfo {
+  std::string version;  ///< "0.2.0", or "0.2.0+15.g3f2a": 15 commits after it
+  std::string revision;  ///< Git revision: "3f2a…", with "-dirty" if files were changed; "unknown" outside a repository
+  std::string date;      ///< date of the revision, "2026-11-22"; empty outside a repository
+  std::string compiler;  ///< "GCC 12.2.0"
+  std::string type;      ///< CMake's build type: "Release"
+};
+
+/// Returns the origin of this binary.
+const BuildInfo& build_info();
+
 /// Returns the folders below which share/drape and lib/drape may lie, in search order: the folders above the program,
 /// then those above the library or Python module that holds this code. An installation may be moved as a whole.
 std::vector<std::filesystem::path> installation_roots();

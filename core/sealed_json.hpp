@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/hash.hpp"
+#include "core/bytes.hpp"
 
 namespace drape {
 

@@ -15,8 +15,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "core/bytes.hpp"
 #include "core/files.hpp"
-#include "core/hash.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 

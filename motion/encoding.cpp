@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "core/build_info.hpp"
+#include "core/installation.hpp"
 #include "motion/blocks.hpp"
 
 namespace drape {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base64.hpp"
+#include "core/bytes.hpp"
 #include "core/text.hpp"
 #include "drape/core/rotation.hpp"
 #include "drape/sim/mesh.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/build_info.hpp"
+#include "core/installation.hpp"
 #include "core/text.hpp"
 #include "drape/render/renderer.hpp"
 #include "drape/sim/settings.hpp"

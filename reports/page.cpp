@@ -5,8 +5,8 @@
 #include <array>
 #include <utility>
 
-#include "core/base64.hpp"
-#include "core/build_info.hpp"
+#include "core/bytes.hpp"
+#include "core/installation.hpp"
 #include "core/machine.hpp"
 #include "core/text.hpp"
 #include "html_assets.hpp"

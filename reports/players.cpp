@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base64.hpp"
+#include "core/bytes.hpp"
 #include "reports/components.hpp"
 
 namespace drape::html {

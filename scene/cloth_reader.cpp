@@ -11,12 +11,12 @@
 #include <string_view>
 #include <utility>
 
+#include "drape/sim/cloth.hpp"
 #include "scene/mesh_value.hpp"
 #include "scene/selection.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/values.hpp"
 #include "sim/spring_network.hpp"
-#include "sim/woven_cloth.hpp"
 
 namespace drape {
 namespace {

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <variant>
 
+#include "core/bytes.hpp"
 #include "core/files.hpp"
-#include "core/hash.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "scene/mesh/source.hpp"

@@ -7,7 +7,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "core/hash.hpp"
+#include "core/bytes.hpp"
 #include "core/text.hpp"
 #include "scene/values/value_kind.hpp"
 

@@ -1,9 +1,13 @@
 #include "drape/sim/simulation.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
+#include "core/bytes.hpp"
+#include "drape/core/error.hpp"
 #include "drape/sim/schemes/method_choice.hpp"
 #include "drape/sim/settings.hpp"
 #include "sim/parallel/vectors.hpp"
@@ -14,6 +18,16 @@
 
 namespace drape {
 namespace {
+
+void require_rows(const char* what, Eigen::Index rows, int vertices) {
+  if (rows == vertices) return;
+  throw UsageError(fmt::format("the cloth has {} vertices and {} {}", vertices, rows, what));
+}
+
+void require_vertex(const char* what, int vertex, int vertices) {
+  if (vertex >= 0 && vertex < vertices) return;
+  throw UsageError(fmt::format("a {} has vertex {}, but the vertices are 0 to {}", what, vertex, vertices - 1));
+}
 
 std::unique_ptr<StabilityGuard> make_asked_guard(const SimulationSettings& settings, const System& system) {
   auto guard = make_guard(settings, system);
@@ -34,6 +48,31 @@ State initial_state(const Cloth& cloth) {
 }
 
 }  // namespace
+
+void require_valid(const SimulationSettings& settings) {
+  if (!(settings.step > 0) || !std::isfinite(settings.step)) {
+    throw UsageError(fmt::format("the step must be above 0 s, found {:g} s", settings.step));
+  }
+  const Cloth& cloth = settings.cloth;
+  const int vertices = cloth.vertex_count();
+  require_rows("velocities", cloth.velocities.rows(), vertices);
+  if (cloth.rest.rows() > 0) require_rows("rest positions", cloth.rest.rows(), vertices);  // springs do not need it
+  require_rows("masses", cloth.masses.size(), vertices);
+  for (const Triangle& triangle : cloth.triangles) {
+    for (const int vertex : triangle) require_vertex("triangle", vertex, vertices);
+  }
+  for (const Spring& spring : cloth.springs) {
+    for (const int vertex : {spring.i, spring.j}) require_vertex("spring", vertex, vertices);
+  }
+  for (const int pin : cloth.pins) require_vertex("pin", pin, vertices);
+  for (const Seam& seam : cloth.seams) {
+    for (const SeamTie& tie : seam.ties) {
+      for (const int vertex : {tie.vertex, tie.edge[0], tie.edge[1]}) require_vertex("seam", vertex, vertices);
+    }
+  }
+  if (std::ranges::adjacent_find(cloth.pins, std::greater_equal<>()) == cloth.pins.end()) return;
+  throw UsageError("the pins must be ascending, each once");
+}
 
 /// Parts of a simulation. They refer to each other, so the object does not move in memory.
 class Simulation::Motion {
@@ -233,5 +272,18 @@ std::optional<Accuracy> Simulation::accuracy() const {
   return motion_->said([](const Scheme& scheme) { return scheme.accuracy(); });
 }
 std::vector<Collider> Simulation::colliders(double time) const { return motion_->system->colliders_at(time); }
+
+std::uint64_t hash_of(const State& state) {
+  Hash hash;
+  hash.add(&state.step, sizeof state.step);
+  const auto add = [&hash](const auto& numbers) {
+    hash.add(numbers.data(), static_cast<std::size_t>(numbers.size()) * sizeof(double));
+  };
+  for (const Vertices* vertices : {&state.x, &state.v, &state.restraint.acceleration}) add(*vertices);
+  add(state.restraint.tensions);
+  hash.add(state.contact_forces.data(), state.contact_forces.size() * sizeof(ContactForce));
+  if (state.substeps != 0) hash.add(&state.substeps, sizeof state.substeps);
+  return hash.value();
+}
 
 }  // namespace drape

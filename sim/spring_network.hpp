@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "drape/sim/cloth.hpp"
-#include "sim/kernels/vertices.hpp"
 #include "sim/parallel/loops.hpp"
 #include "sim/parallel/threads.hpp"
+#include "sim/parallel/vectors.hpp"
 
 namespace drape {
 

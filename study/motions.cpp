@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/base64.hpp"
+#include "core/bytes.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"

@@ -9,13 +9,13 @@
 #include <set>
 #include <thread>
 
-#include "core/build_info.hpp"
 #include "core/files.hpp"
+#include "core/installation.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "drape/scene/scene.hpp"
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/simulation.hpp"

@@ -13,8 +13,8 @@
 #include <optional>
 #include <set>
 
+#include "core/bytes.hpp"
 #include "core/files.hpp"
-#include "core/hash.hpp"
 #include "drape/render/image.hpp"
 #include "output/codecs/codecs.hpp"
 #include "reports/chart.hpp"

@@ -9,10 +9,9 @@
 #include <set>
 #include <sstream>
 
-#include "core/build_info.hpp"
+#include "core/bytes.hpp"
 #include "core/console.hpp"
 #include "core/files.hpp"
-#include "core/hash.hpp"
 #include "core/installation.hpp"
 #include "drape/core/error.hpp"
 #include "drape/scene/document.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "core/build_info.hpp"
+#include "core/installation.hpp"
 
 namespace drape {
 namespace {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <optional>
 
+#include "core/bytes.hpp"
 #include "core/files.hpp"
-#include "core/hash.hpp"
 #include "core/text.hpp"
 #include "motion/import/import_motion.hpp"
 #include "motion/import/motion_source.hpp"

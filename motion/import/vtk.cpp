@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "core/base64.hpp"
+#include "core/bytes.hpp"
 #include "core/files.hpp"
 #include "motion/import/import_motion.hpp"
 #include "motion/import/motion_source.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/bytes.hpp"
 #include "core/files.hpp"
-#include "core/hash.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "drape/sim/body_shape.hpp"

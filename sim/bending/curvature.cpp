@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "drape/sim/cloth.hpp"
 #include "sim/bending/bending_energy.hpp"
-#include "sim/woven_cloth.hpp"
 
 namespace drape {
 namespace {

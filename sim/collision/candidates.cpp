@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "sim/kernels/kernels.hpp"
+
 namespace drape {
 namespace {
 
@@ -16,7 +18,12 @@ constexpr Eigen::Index usual_pairs = 16;
 // Part of the reach that rounding errors of the boxes stay below.
 constexpr double lost = 1e-6;
 // Features whose pairs are filtered together: enough to fill the lanes, few enough for the cache.
-constexpr std::size_t block_size = 16;
+constexpr std::size_t features_per_block = 16;
+
+// Margins of PairFilter:
+constexpr double slab_rounding = 64 * 0x1p-24;  // of a slab's width, in sizes
+constexpr double square_rounding = 0x1p-20;     // of squares, relative
+constexpr double least_reach = 1e-15;           // its square is a normal number in single precision [m]
 
 Box around(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
 
@@ -95,10 +102,10 @@ void CollisionCandidates::find(const std::vector<Point>& from, const std::vector
 template <class Find>
 void CollisionCandidates::find_pairs(Feature feature, Index count, double reach, Find&& find) {
   const auto pinned = [&](int i) { return pinned_[static_cast<Index>(i)] != 0; };
-  const Index blocks = (count + block_size - 1) / block_size;
+  const Index blocks = (count + features_per_block - 1) / features_per_block;
   const auto find_block = [&](Eigen::Index block, std::vector<FeaturePair>& found) {
-    const Index first = static_cast<Index>(block) * block_size, before = found.size();
-    for (Index k = first; k < std::min(first + block_size, count); ++k) {
+    const Index first = static_cast<Index>(block) * features_per_block, before = found.size();
+    for (Index k = first; k < std::min(first + features_per_block, count); ++k) {
       find(k, [&](const std::array<int, 4>& vertices) {
         if (!std::ranges::all_of(vertices, pinned)) found.push_back({feature, vertices});
       });
@@ -109,7 +116,7 @@ void CollisionCandidates::find_pairs(Feature feature, Index count, double reach,
     found.resize(near);
     std::ranges::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end());
   };
-  found_.fill(threads_, static_cast<Eigen::Index>(blocks), find_block, worth_dividing / block_size);
+  found_.fill(threads_, static_cast<Eigen::Index>(blocks), find_block, worth_dividing / features_per_block);
   found_.append_to(pairs_);
 }
 
@@ -331,6 +338,45 @@ void BodyCandidates::add(const FeaturePair& pair, const BodyStep& step, double r
   // Near the start of the step, the line between the closest points is the best separating axis.
   if (kept_apart(pair.feature, before.difference(from), from, to, reach)) return;
   pairs.push_back({pair, std::sqrt(before.squared)});
+}
+
+void PairFilter::set(const std::vector<Point>& from, const std::vector<Point>& to) {
+  rows_.resize(from.size());
+  size_ = 0;
+  if (from.empty()) return;
+  std::size_t first = 0;
+  for (const std::vector<Point>* points : {&from, &to}) {
+    Point low = points->front(), high = low, sum = Point::Zero();
+    for (const Point& p : *points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+      sum += p;
+    }
+    const Point middle = (low + high) / 2;
+    // Nothing is rejected if a number is not finite.
+    size_ = sum.allFinite() ? std::max(size_, (high - low).maxCoeff() / 2) : std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < points->size(); ++i) {
+      const Eigen::Vector3f p = ((*points)[i] - middle).cast<float>();
+      rows_[i][first] = p.x();
+      rows_[i][first + 1] = p.y();
+      rows_[i][first + 2] = p.z();
+      rows_[i][first + 3] = 0;
+    }
+    first += 4;
+  }
+}
+
+int PairFilter::find(Feature feature, std::span<const FeaturePair> pairs, double reach,
+                     std::array<int, at_once>& near) const {
+  static_assert(sizeof(FeaturePair) % sizeof(int) == 0);
+  const double enlarged = std::max((reach + slab_rounding * size_) * (1 + square_rounding), least_reach);
+  const PairPaths paths{.rows = rows_.front().data(),
+                        .vertices = pairs.front().vertices.data(),
+                        .stride = sizeof(FeaturePair) / sizeof(int),
+                        .count = static_cast<int>(pairs.size()),
+                        .reach = static_cast<float>(enlarged)};
+  return feature == Feature::edge_edge ? kernels().near_edges(paths, near.data())
+                                       : kernels().near_vertices(paths, near.data());
 }
 
 }  // namespace drape

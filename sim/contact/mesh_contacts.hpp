@@ -12,7 +12,6 @@
 #include "sim/collision/closest_point_cache.hpp"
 #include "sim/collision/entanglement.hpp"
 #include "sim/collision/monotone_sheet.hpp"
-#include "sim/collision/pair_filter.hpp"
 #include "sim/collision/placed_mesh.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/contact/seams.hpp"

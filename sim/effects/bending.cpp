@@ -2,7 +2,7 @@
 
 #include "core/keys.hpp"
 #include "sim/bending/bending_energy.hpp"
-#include "sim/effects/of_cloth.hpp"
+#include "sim/effects/effect_keys.hpp"
 
 namespace drape {
 

@@ -8,7 +8,7 @@
 
 #include "core/keys.hpp"
 #include "drape/sim/settings.hpp"
-#include "sim/effects/of_cloth.hpp"
+#include "sim/effects/effect_keys.hpp"
 #include "sim/mesh_anchors.hpp"
 #include "sim/system.hpp"
 

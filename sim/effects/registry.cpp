@@ -1,19 +1,17 @@
 #include <algorithm>
 
+#include "drape/sim/effects/acceleration.hpp"
+#include "drape/sim/effects/air.hpp"
 #include "drape/sim/effects/bending.hpp"
 #include "drape/sim/effects/body.hpp"
 #include "drape/sim/effects/damping.hpp"
 #include "drape/sim/effects/effect.hpp"
-#include "drape/sim/effects/field.hpp"
-#include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/ground.hpp"
-#include "drape/sim/effects/internal_damping.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/pressure.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
-#include "drape/sim/effects/wind.hpp"
 
 namespace drape {
 namespace {

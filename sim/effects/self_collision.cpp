@@ -7,7 +7,6 @@
 #include "drape/sim/settings.hpp"
 #include "sim/contact/mesh_contacts.hpp"
 #include "sim/effects/effect_keys.hpp"
-#include "sim/effects/of_cloth.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

@@ -4,7 +4,7 @@
 
 #include "core/keys.hpp"
 #include "drape/sim/settings.hpp"
-#include "sim/effects/of_cloth.hpp"
+#include "sim/effects/effect_keys.hpp"
 #include "sim/effects/strain_filter.hpp"
 #include "sim/system.hpp"
 

@@ -2,7 +2,6 @@
 
 // Rejection of distant pairs of features. Only for inclusion by kernels_isa.cpp, see there.
 
-#include "sim/kernels/isa_packing.hpp"
 #include "sim/kernels/isa_triangle.hpp"
 #include "sim/kernels/kernels.hpp"
 

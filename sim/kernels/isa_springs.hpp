@@ -1,6 +1,6 @@
 #pragma once
 
-// Spring laws, and loops over springs in any order. Only for inclusion by kernels_isa.cpp, see there.
+// Spring laws, and loops over springs in any order and in bands. Only for inclusion by kernels_isa.cpp, see there.
 
 #include "sim/kernels/isa_simd.hpp"
 #include "sim/kernels/kernels.hpp"
@@ -162,6 +162,211 @@ void add_list_product(const SpringList& list, ConstSpringBlocks blocks, Columns<
 void list_blocks(const SpringList& list, double concavity, Columns<const double> positions, SpringBlocks blocks) {
   BlockLaw law{list.stiffness, list.rest_length, concavity, blocks};
   [[maybe_unused]] const Gathered unused(list, positions, law);
+}
+
+// Springs in bands, for one stretch of vertices at a time.
+//
+// A vertex v receives the force of a band's spring v and the opposite force of spring v − offset. The loop over a band
+// computes its forces, stores them, and subtracts those of the previous band. These were written long enough ago that
+// no read waits for a write. A spring's square root and division take longer than the rest of the loop, so the sums are
+// free. The loop is short, so many springs are processed concurrently.
+
+/// Three coordinates of a vertex.
+template <class V>
+struct Triple {
+  V x, y, z;
+};
+
+template <class V>
+inline Triple<V> load_triple(Columns<const double> from, int t) {
+  return {load<V>(from.x + t), load<V>(from.y + t), load<V>(from.z + t)};
+}
+template <class V>
+inline void store_triple(Columns<double> to, int t, const Triple<V>& value) {
+  store<V>(to.x + t, value.x);
+  store<V>(to.y + t, value.y);
+  store<V>(to.z + t, value.z);
+}
+template <class V>
+inline Triple<V> operator-(const Triple<V>& a, const Triple<V>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class V>
+inline void operator+=(Triple<V>& sum, const Triple<V>& term) {
+  sum.x += term.x;
+  sum.y += term.y;
+  sum.z += term.z;
+}
+inline Columns<const double> constant(Columns<double> c) { return {c.x, c.y, c.z}; }
+
+/// First band: sum = its forces.
+struct NoBandBefore {
+  template <class V>
+  void add(Columns<double>, int, Triple<V>&) const {}
+};
+
+/// Later bands: sum += its forces minus the opposite forces of the previous band.
+struct BandBefore {
+  SpringBand band;
+
+  template <class V>
+  void add(Columns<double> sum, int t, Triple<V>& total) const {
+    total += load_triple<V>(constant(sum), t) - load_triple<V>(constant(band.force), t - band.offset);
+  }
+};
+
+/// Computes the forces of one band and adds them up. They are zero if the cloth has no vertices for their other ends.
+template <class Law, class Before>
+inline void add_band(const SpringBand band, int count, int springs, Columns<const double> from, Law& shared,
+                     const Before before, Columns<double> sum) {
+  Law law = shared;
+  for_range(0, springs, [&]<class V>(int t, V) {
+    Triple<V> force = load_triple<V>(from, t) - load_triple<V>(from, t + band.offset);
+    law(t, force.x, force.y, force.z);
+    store_triple(band.force, t, force);
+    before.add(sum, t, force);
+    store_triple(sum, t, force);
+  });
+  for_range(springs, count, [&]<class V>(int t, V) {
+    Triple<V> none{};
+    store_triple(band.force, t, none);
+    before.add(sum, t, none);
+    store_triple(sum, t, none);
+  });
+  shared = law;
+}
+
+/// Computes every band of a stretch with its law, and passes each vertex's position and sum to `finish`.
+template <class Law, class Finish>
+inline void sweep(const SpringStretch& stretch, Columns<const double> from, Law* laws, Finish& shared) {
+  alignas(64) double sums[3][kernel_size];
+  const Columns<double> sum{sums[0], sums[1], sums[2]};
+  Finish finish = shared;
+  for (int b = 0; b < stretch.band_count; ++b) {
+    const SpringBand& band = stretch.bands[b];
+    const int there = stretch.count + stretch.vertices_after - band.offset;
+    const int springs = there < 0 ? 0 : there < stretch.count ? there : stretch.count;
+    if (b == 0) {
+      add_band(band, stretch.count, springs, from, laws[b], NoBandBefore{}, sum);
+    } else {
+      add_band(band, stretch.count, springs, from, laws[b], BandBefore{stretch.bands[b - 1]}, sum);
+    }
+  }
+  if (stretch.band_count == 0) {
+    for_range(0, stretch.count, [&]<class V>(int t, V) { finish(t, load_triple<V>(from, t), Triple<V>{}); });
+  } else {
+    const BandBefore last{stretch.bands[stretch.band_count - 1]};
+    for_range(0, stretch.count, [&]<class V>(int t, V) {
+      Triple<V> total{};
+      last.add(sum, t, total);
+      finish(t, load_triple<V>(from, t), total);
+    });
+  }
+  shared = finish;
+}
+
+struct AddTo {
+  Columns<double> to;
+
+  template <class V>
+  void operator()(int t, const Triple<V>&, Triple<V> sum) {
+    sum += load_triple<V>(constant(to), t);
+    store_triple(to, t, sum);
+  }
+};
+
+struct KickAndDrift {
+  SpringKick k;
+  LaneSum squares{};
+
+  template <class V>
+  void operator()(int t, const Triple<V>& at, const Triple<V>& sum) {
+    const V factor = load<V>(k.factor + t);
+    const V x = axis(t, factor, at.x, sum.x, k.force.x, k.velocity.x, k.position.x);
+    const V y = axis(t, factor, at.y, sum.y, k.force.y, k.velocity.y, k.position.y);
+    const V z = axis(t, factor, at.z, sum.z, k.force.z, k.velocity.z, k.position.z);
+    squares.add(t, x * x + y * y + z * z);
+  }
+
+ private:
+  /// Returns the new position.
+  template <class V>
+  V axis(int t, V factor, V at, V sum, const double* force, double* velocity, double* position) const {
+    const V v = k.drift.before * (load<V>(velocity + t) + factor * (sum - load<V>(force + t)));
+    const V to = at + k.drift.h * v;
+    store<V>(velocity + t, k.drift.after * v);
+    store<V>(position + t, to);
+    return to;
+  }
+};
+
+struct AddInertia {
+  SpringInertia i;
+  LaneSum twice_energy{};
+
+  template <class V>
+  void operator()(int t, const Triple<V>& at, Triple<V> sum) {
+    const V factor = load<V>(i.factor + t);
+    const Triple<V> d = at - load_triple<V>(i.y, t);
+    const Triple<V> pull{factor * d.x, factor * d.y, factor * d.z};
+    twice_energy.add(t, d.x * pull.x + d.y * pull.y + d.z * pull.z);
+    sum += pull;
+    store_triple(i.gradient, t, sum);
+  }
+};
+
+inline GradientLaw* laws_of(const SpringStretch& stretch, GradientLaw* laws) {
+  for (int b = 0; b < stretch.band_count; ++b) laws[b] = {stretch.bands[b].stiffness, stretch.bands[b].rest_length};
+  return laws;
+}
+inline ValueGradientLaw* laws_of(const SpringStretch& stretch, ValueGradientLaw* laws) {
+  for (int b = 0; b < stretch.band_count; ++b) laws[b] = {stretch.bands[b].stiffness, stretch.bands[b].rest_length, {}};
+  return laws;
+}
+
+inline double energy_of(const SpringStretch& stretch, const ValueGradientLaw* laws) {
+  double twice = 0;
+  for (int b = 0; b < stretch.band_count; ++b) twice += laws[b].twice_energy.total();
+  return twice;
+}
+
+double add_band_value_gradient(const SpringStretch& stretch, Columns<const double> positions,
+                               Columns<double> gradient) {
+  ValueGradientLaw laws[max_bands];
+  AddTo finish{gradient};
+  sweep(stretch, positions, laws_of(stretch, laws), finish);
+  return 0.5 * energy_of(stretch, laws);
+}
+
+double evaluate_bands(const SpringStretch& stretch, Columns<const double> positions, const SpringInertia& inertia) {
+  ValueGradientLaw laws[max_bands];
+  AddInertia finish{inertia};
+  sweep(stretch, positions, laws_of(stretch, laws), finish);
+  return 0.5 * (finish.twice_energy.total() + energy_of(stretch, laws));
+}
+
+double kick_bands(const SpringStretch& stretch, const SpringKick& kick) {
+  GradientLaw laws[max_bands];
+  KickAndDrift finish{kick};
+  sweep(stretch, kick.from, laws_of(stretch, laws), finish);
+  return finish.squares.total();
+}
+
+void add_band_product(const SpringStretch& stretch, const ConstSpringBlocks* blocks, Columns<const double> vector,
+                      Columns<double> product) {
+  ProductLaw laws[max_bands];
+  for (int b = 0; b < stretch.band_count; ++b) laws[b].blocks = blocks[b];
+  AddTo finish{product};
+  sweep(stretch, vector, laws, finish);
+}
+
+void band_blocks(const SpringBand& band, int springs, double concavity, Columns<const double> positions,
+                 SpringBlocks blocks) {
+  BlockLaw law{band.stiffness, band.rest_length, concavity, blocks};
+  for_range(0, springs, [&]<class V>(int t, V) {
+    Triple<V> d = load_triple<V>(positions, t) - load_triple<V>(positions, t + band.offset);
+    law(t, d.x, d.y, d.z);
+  });
 }
 
 }  // namespace

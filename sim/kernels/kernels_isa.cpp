@@ -3,8 +3,6 @@
 // header's inline function. The linker would keep one copy for the whole program, possibly one that an older processor
 // cannot run.
 
-#include "sim/kernels/isa_bands.hpp"
-#include "sim/kernels/isa_packing.hpp"
 #include "sim/kernels/isa_pairs.hpp"
 #include "sim/kernels/isa_simd.hpp"
 #include "sim/kernels/isa_springs.hpp"

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "drape/core/error.hpp"
-#include "sim/kernels/vertices.hpp"
 #include "sim/linear/multifrontal_cholesky.hpp"
 #include "sim/linear/solve_tree.hpp"
 #include "sim/linear/sparse_cholesky.hpp"
 #include "sim/parallel/loops.hpp"
+#include "sim/parallel/vectors.hpp"
 
 namespace drape {
 namespace {

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "sim/kernels/vertices.hpp"
 #include "sim/parallel/threads.hpp"
 
 namespace drape {

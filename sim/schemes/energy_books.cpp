@@ -5,8 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "sim/dashpots.hpp"
 #include "sim/parallel/loops.hpp"
-#include "sim/step_dissipation.hpp"
 
 namespace drape {
 namespace {

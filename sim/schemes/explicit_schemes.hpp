@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "sim/schemes/damping_kick.hpp"
+#include "sim/dashpots.hpp"
 #include "sim/schemes/field_solve.hpp"
 #include "sim/schemes/scheme.hpp"
 #include "sim/spring_network.hpp"

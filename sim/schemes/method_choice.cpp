@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "drape/sim/effects/internal_damping.hpp"
-#include "sim/schemes/damping_kick.hpp"
+#include "drape/sim/effects/damping.hpp"
+#include "sim/dashpots.hpp"
 #include "sim/schemes/stability_guard.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"

@@ -3,9 +3,8 @@
 #include <array>
 #include <utility>
 
-#include "sim/schemes/backward_euler.hpp"
 #include "sim/schemes/explicit_schemes.hpp"
-#include "sim/schemes/sdirk2.hpp"
+#include "sim/schemes/implicit_schemes.hpp"
 #include "sim/schemes/stability_guard.hpp"
 #include "sim/schemes/substeps.hpp"
 #include "sim/solvers/local_global.hpp"

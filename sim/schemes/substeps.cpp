@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "sim/schemes/implicit_schemes.hpp"
 #include "sim/schemes/registry.hpp"
-#include "sim/schemes/sdirk2.hpp"
 #include "sim/stability.hpp"
 
 namespace drape {

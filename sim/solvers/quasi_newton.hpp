@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "sim/kernels/vertices.hpp"
 #include "sim/parallel/threads.hpp"
+#include "sim/parallel/vectors.hpp"
 #include "sim/solvers/local_global.hpp"
 #include "sim/solvers/newton.hpp"
 

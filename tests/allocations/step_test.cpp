@@ -7,16 +7,16 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "drape/sim/effects/acceleration.hpp"
+#include "drape/sim/effects/air.hpp"
 #include "drape/sim/effects/bending.hpp"
 #include "drape/sim/effects/body.hpp"
-#include "drape/sim/effects/field.hpp"
+#include "drape/sim/effects/damping.hpp"
 #include "drape/sim/effects/ground.hpp"
-#include "drape/sim/effects/internal_damping.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/pressure.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
-#include "drape/sim/effects/wind.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/system.hpp"
 #include "tests/support/closed_meshes.hpp"

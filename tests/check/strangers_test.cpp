@@ -6,7 +6,7 @@
 
 #include "check/golden.hpp"
 #include "check/manifest.hpp"
-#include "core/hash.hpp"
+#include "core/bytes.hpp"
 #include "drape/core/error.hpp"
 #include "tests/check/checked_scene.hpp"
 #include "tests/support/motion_bytes.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/mesh.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/schemes/stability_guard.hpp"

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "drape/sim/cloth.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/bending.hpp"
 #include "drape/sim/effects/body.hpp"
-#include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/sphere.hpp"

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <string>
 
-#include "drape/sim/effects/field.hpp"
+#include "drape/sim/cloth.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/schemes/method_choice.hpp"
-#include "sim/woven_cloth.hpp"
 #include "tests/contact/contact_setup.hpp"
 #include "tests/support/cloths.hpp"
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "sim/woven_cloth.hpp"
+#include "drape/sim/cloth.hpp"
 #include "tests/contact/contact_setup.hpp"
 #include "tests/support/audited_run.hpp"
 #include "tests/support/random.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drape/sim/effects/field.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "tests/contact/contact_setup.hpp"
 
 namespace drape::test {

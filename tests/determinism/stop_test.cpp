@@ -4,13 +4,13 @@
 
 #include <vector>
 
+#include "drape/sim/effects/air.hpp"
 #include "drape/sim/effects/bending.hpp"
 #include "drape/sim/effects/body.hpp"
 #include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
-#include "drape/sim/effects/wind.hpp"
 #include "drape/sim/simulation.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"

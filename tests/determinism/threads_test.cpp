@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/effects/air.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/linear/constant_factor.hpp"
 #include "sim/parallel/vectors.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/effects/air.hpp"
 #include "drape/sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 

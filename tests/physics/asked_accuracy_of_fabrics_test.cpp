@@ -14,7 +14,6 @@
 #include "drape/sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
-#include "sim/woven_cloth.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"

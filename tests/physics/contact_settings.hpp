@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

@@ -10,7 +10,6 @@
 #include "drape/sim/cloth.hpp"
 #include "drape/sim/effects/bending.hpp"
 #include "drape/sim/simulation.hpp"
-#include "sim/woven_cloth.hpp"
 #include "tests/support/cloths.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"

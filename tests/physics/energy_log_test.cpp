@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/simulation.hpp"
 #include "tests/support/plain_springs.hpp"
 #include "tests/support/setups.hpp"

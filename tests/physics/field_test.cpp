@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drape/sim/effects/field.hpp"
-#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/formula.hpp"
 #include "tests/support/setups.hpp"

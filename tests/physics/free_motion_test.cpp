@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/simulation.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"

@@ -10,15 +10,14 @@
 #include <numbers>
 #include <string>
 
+#include "drape/sim/effects/acceleration.hpp"
+#include "drape/sim/effects/air.hpp"
 #include "drape/sim/effects/bending.hpp"
-#include "drape/sim/effects/field.hpp"
+#include "drape/sim/effects/damping.hpp"
 #include "drape/sim/effects/ground.hpp"
-#include "drape/sim/effects/internal_damping.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
-#include "drape/sim/effects/wind.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/dashpots.hpp"
-#include "sim/schemes/damping_kick.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 #include "tests/support/meshes.hpp"

@@ -6,10 +6,10 @@
 #include <functional>
 #include <map>
 
-#include "bench/xpbd.hpp"
+#include "bench/textbook.hpp"
+#include "drape/sim/effects/air.hpp"
 #include "drape/sim/effects/ground.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
-#include "drape/sim/effects/wind.hpp"
 #include "drape/sim/simulation.hpp"
 #include "tests/physics/contact_settings.hpp"
 #include "tests/support/plain_springs.hpp"

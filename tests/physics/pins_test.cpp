@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 

@@ -10,7 +10,7 @@
 #include "drape/sim/effects/pressure.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/simulation.hpp"
-#include "sim/pressure/closed_pieces.hpp"
+#include "sim/pressure/gas_energy.hpp"
 #include "tests/support/audited_run.hpp"
 #include "tests/support/closed_meshes.hpp"
 #include "tests/support/random.hpp"

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/simulation.hpp"
 #include "drape/sim/solvers/accuracy.hpp"
 #include "sim/system.hpp"

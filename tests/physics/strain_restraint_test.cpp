@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/damping.hpp"
-#include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/system.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <complex>
 
-#include "drape/sim/effects/field.hpp"
-#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/effects/acceleration.hpp"
+#include "drape/sim/effects/air.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/solvers/local_global.hpp"
 #include "sim/stability.hpp"

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <utility>
 
+#include "drape/sim/cloth.hpp"
 #include "drape/sim/effects/bending.hpp"
 #include "drape/sim/mesh.hpp"
 #include "drape/sim/simulation.hpp"
-#include "sim/woven_cloth.hpp"
 #include "tests/support/setups.hpp"
 #include "tests/support/sheets_to_bend.hpp"
 

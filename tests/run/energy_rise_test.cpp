@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/ground.hpp"
-#include "drape/sim/effects/wind.hpp"
 #include "run/run_scene.hpp"
 #include "run/statistics.hpp"
 #include "tests/support/setups.hpp"

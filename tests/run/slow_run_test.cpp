@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "run/run_scene.hpp"
 
 namespace drape {

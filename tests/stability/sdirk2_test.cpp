@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "drape/sim/effects/gravity.hpp"
-#include "sim/schemes/sdirk2.hpp"
+#include "drape/sim/effects/acceleration.hpp"
+#include "sim/schemes/implicit_schemes.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 #include "tests/stability/hard_cases.hpp"

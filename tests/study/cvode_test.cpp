@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "drape/scene/scene.hpp"
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "study/reference.hpp"
 
 #ifdef DRAPE_HAS_CVODE

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "drape/sim/cloth.hpp"
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/settings.hpp"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/hash.hpp"
+#include "core/bytes.hpp"
 #include "motion/blocks.hpp"
 #include "motion/encoding.hpp"
 

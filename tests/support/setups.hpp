@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/damping.hpp"
-#include "drape/sim/effects/gravity.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "drape/sim/settings.hpp"
 #include "tests/support/methods.hpp"

@@ -9,11 +9,11 @@
 #include <string>
 
 #include "drape/sim/effects/bending.hpp"
+#include "drape/sim/effects/damping.hpp"
 #include "drape/sim/effects/ground.hpp"
-#include "drape/sim/effects/internal_damping.hpp"
+#include "sim/dashpots.hpp"
 #include "sim/linear/newton_cholesky.hpp"
 #include "sim/linear/newton_solver.hpp"
-#include "sim/step_dissipation.hpp"
 #include "sim/step_objective.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"

@@ -12,7 +12,6 @@
 #include "drape/scene/scene.hpp"
 #include "drape/sim/cloth.hpp"
 #include "drape/sim/effects/bending.hpp"
-#include "sim/woven_cloth.hpp"
 #include "tests/support/cloths.hpp"
 #include "tests/support/scene_folder.hpp"
 

@@ -6,12 +6,12 @@
 
 #include <cmath>
 
-#include "drape/sim/effects/field.hpp"
+#include "drape/sim/effects/acceleration.hpp"
+#include "drape/sim/effects/air.hpp"
+#include "drape/sim/effects/damping.hpp"
 #include "drape/sim/effects/ground.hpp"
-#include "drape/sim/effects/internal_damping.hpp"
 #include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/self_collision.hpp"
-#include "drape/sim/effects/wind.hpp"
 #include "drape/sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"

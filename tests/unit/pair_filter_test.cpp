@@ -1,6 +1,6 @@
 // The filter of pairs: never rejects a pair that comes within the reach, and rejects most others.
 
-#include "sim/collision/pair_filter.hpp"
+#include "sim/collision/candidates.hpp"
 
 #include <gtest/gtest.h>
 

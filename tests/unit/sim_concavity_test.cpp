@@ -7,8 +7,8 @@
 #include <memory>
 #include <numbers>
 
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/bending.hpp"
-#include "drape/sim/effects/gravity.hpp"
 #include "sim/kernels/kernels.hpp"
 #include "sim/linear/newton_cholesky.hpp"
 #include "sim/solvers/newton.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/effects/air.hpp"
 #include "drape/sim/tracks.hpp"
 
 namespace drape {

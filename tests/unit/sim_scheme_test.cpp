@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "drape/sim/simulation.hpp"
-#include "sim/schemes/backward_euler.hpp"
+#include "sim/schemes/implicit_schemes.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/schemes/substeps.hpp"
 #include "sim/spring_network.hpp"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "drape/scene/scene.hpp"
-#include "drape/sim/effects/gravity.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/simulation.hpp"
 #include "tests/support/usage_error.hpp"
 

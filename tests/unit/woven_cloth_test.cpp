@@ -10,10 +10,10 @@
 #include <string>
 #include <tuple>
 
+#include "drape/sim/cloth.hpp"
 #include "drape/sim/mesh.hpp"
 #include "sim/bending/bending_energy.hpp"
 #include "sim/spring_network.hpp"
-#include "sim/woven_cloth.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
 #include "tests/support/sheets_to_bend.hpp"

@@ -1,5 +1,5 @@
 #include <cstdio>
-#include <drape/sim/effects/gravity.hpp>
+#include <drape/sim/effects/acceleration.hpp>
 #include <drape/sim/effects/sphere.hpp>
 #include <drape/sim/simulation.hpp>
 #include <utility>

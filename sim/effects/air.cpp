@@ -1,4 +1,4 @@
-#include "drape/sim/effects/wind.hpp"
+#include "drape/sim/effects/air.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <cstdint>
 
 #include "core/keys.hpp"
-#include "sim/effects/uniform_acceleration.hpp"
 #include "sim/parallel/loops.hpp"
 #include "sim/system.hpp"
 
@@ -137,14 +136,6 @@ void Air::check(const SimulationSettings&, const ProblemSink& problem) const {
 
 void Air::install(System& system) const {
   system.forces.push_back(std::make_unique<AirForce>(*this, system.cloth, system.step, system.threads));
-}
-
-void Wind::describe(Keys& keys) {
-  keys.add("acceleration", &acceleration, "m/s²", "Acceleration of every vertex.").must_be_given();
-}
-
-void Wind::install(System& system) const {
-  system.forces.push_back(std::make_unique<UniformAcceleration>(acceleration, system.cloth.masses));
 }
 
 namespace {

@@ -3,9 +3,6 @@
 // Example:
 //   drape::Effects effects{drape::Air{.velocity = {4, 0, 0}, .gusts = {.speed = 2}}};
 
-// Example:
-//   drape::Effects effects{drape::Wind{.acceleration = {0, 3, 0}}};
-
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -14,8 +11,6 @@
 #include "drape/sim/effects/effect.hpp"
 
 namespace drape {
-
-class Keys;
 
 /// Parameters of a wind's gusts.
 struct GustValues {
@@ -68,17 +63,6 @@ struct Air {
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;
-  void install(System& system) const;
-};
-
-/// Uniform acceleration as in the homework: a second gravity. For the force of moving air see Air.
-struct Wind {
-  static constexpr std::string_view name = "wind";
-  static constexpr EffectCost cost{.evaluated = 10e-9, .solved = 10e-9};
-
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< [m/s²]
-
-  void describe(Keys& keys);
   void install(System& system) const;
 };
 

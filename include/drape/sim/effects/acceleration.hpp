@@ -1,8 +1,15 @@
 #pragma once
 
 // Example:
+//   drape::Effects effects{drape::Gravity{.acceleration = {0, 0, -1.62}}};
+
+// Example:
+//   drape::Effects effects{drape::Wind{.acceleration = {0, 3, 0}}};
+
+// Example:
 //   drape::Effects effects{drape::Field{.acceleration = {"-x", "-y", "0"}}};
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <string>
@@ -10,6 +17,27 @@
 #include "drape/sim/effects/effect.hpp"
 
 namespace drape {
+
+/// Uniform acceleration whose potential energy is reported as gravity's.
+struct Gravity {
+  static constexpr std::string_view name = "gravity";
+
+  Eigen::Vector3d acceleration{0, 0, -9.8};  ///< [m/s²]
+
+  void describe(Keys& keys);
+  void install(System& system) const;
+};
+
+/// Uniform acceleration as in the homework: a second gravity. For the force of moving air see Air.
+struct Wind {
+  static constexpr std::string_view name = "wind";
+  static constexpr EffectCost cost{.evaluated = 10e-9, .solved = 10e-9};
+
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< [m/s²]
+
+  void describe(Keys& keys);
+  void install(System& system) const;
+};
 
 /// Acceleration field by formula, Field{.acceleration = {"-x", "-y", "0"}}: centrifugal, an attractor, a swirl.
 struct Field {

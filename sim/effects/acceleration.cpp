@@ -1,4 +1,4 @@
-#include "drape/sim/effects/field.hpp"
+#include "drape/sim/effects/acceleration.hpp"
 
 #include <fmt/format.h>
 #include <limits>
@@ -11,6 +11,18 @@
 
 namespace drape {
 namespace {
+
+/// Uniform acceleration, constant in time.
+struct UniformAcceleration final : Force {
+  Eigen::Vector3d acceleration;   ///< [m/s²]
+  const Eigen::VectorXd& masses;  ///< masses of the system's cloth [kg]
+
+  UniformAcceleration(const Eigen::Vector3d& a, const Eigen::VectorXd& m) : acceleration(a), masses(m) {}
+  [[nodiscard]] bool constant() const override { return true; }
+  void add(const State&, double, Vertices& force) const override {
+    for (int axis = 0; axis < 3; ++axis) force.col(axis) += acceleration[axis] * masses;
+  }
+};
 
 class FieldForce final : public Force {
  public:
@@ -42,6 +54,21 @@ class FieldForce final : public Force {
 };
 
 }  // namespace
+
+void Gravity::describe(Keys& keys) { keys.add("acceleration", &acceleration, "m/s²", "Acceleration of every vertex."); }
+
+void Gravity::install(System& system) const {
+  system.gravity += acceleration;
+  system.forces.push_back(std::make_unique<UniformAcceleration>(acceleration, system.cloth.masses));
+}
+
+void Wind::describe(Keys& keys) {
+  keys.add("acceleration", &acceleration, "m/s²", "Acceleration of every vertex.").must_be_given();
+}
+
+void Wind::install(System& system) const {
+  system.forces.push_back(std::make_unique<UniformAcceleration>(acceleration, system.cloth.masses));
+}
 
 void Field::describe(Keys& keys) {
   keys.add("acceleration", FormulaList{&acceleration, FormulaField::problem}, "m/s²",

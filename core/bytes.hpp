@@ -1,7 +1,10 @@
 #pragma once
 
+// Hashes of bytes, and their encodings: base64 and byte planes.
+
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,5 +43,13 @@ std::string byte_planes(const std::vector<std::uint64_t>& words);
 
 /// Inverts byte_planes(). Ignores a remainder of size() modulo 8.
 std::vector<std::uint64_t> from_byte_planes(std::string_view bytes);
+
+/// Encodes bytes as base64 (RFC 4648, section 4).
+std::string base64(std::string_view bytes);
+
+/// Decodes base64 that may contain white space. Several encoded parts, each ended by its padding, may follow each
+/// other.
+/// @returns nothing if there is another character
+std::optional<std::string> from_base64(std::string_view text);
 
 }  // namespace drape
