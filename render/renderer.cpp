@@ -62,6 +62,8 @@ const std::vector<std::uint8_t>& encoding() {
   return table;
 }
 
+}  // namespace
+
 /// Drawing target: 16 bits of linear light per channel, premultiplied with coverage. The samples of a pixel are
 /// averaged in linear light; one sample per pixel is smoothed along outlines. The picture is then composed over the
 /// background and encoded as sRGB. The last two steps run here, not in OpenGL: Mesa's sRGB framebuffers differ between
@@ -221,8 +223,6 @@ Image Canvas::compose(std::span<const OutlineSegment> outline) {
   }
   return image;
 }
-
-}  // namespace
 
 class Renderer::Implementation {
  public:
