@@ -75,18 +75,28 @@ void SceneProblems::throw_if_any(const std::vector<std::string>& files) const {
   if (!text.empty()) throw UsageError(text);
 }
 
-std::vector<LoadedScene> load_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides) {
-  std::vector<LoadedScene> scenes;
+namespace {
+
+/// Reads every file, then throws the errors of all.
+template <class Read>
+auto read_each(const std::vector<std::string>& files, const Read& read) {
+  std::vector<decltype(read(files.front()))> scenes;
   SceneProblems problems;
   for (const std::string& file : files) {
     try {
-      scenes.push_back(load_scene(file, overrides));
+      scenes.push_back(read(file));
     } catch (const UsageError& error) {
       problems.add(file, error.what());
     }
   }
   problems.throw_if_any(files);
   return scenes;
+}
+
+}  // namespace
+
+std::vector<LoadedScene> load_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides) {
+  return read_each(files, [&](const std::string& file) { return load_scene(file, overrides); });
 }
 
 std::vector<std::string> unique_names(const std::vector<LoadedScene>& scenes, const std::set<std::string>& taken) {
@@ -358,17 +368,7 @@ SceneToRun open_scene(const std::string& file, const std::vector<std::string>& o
 }
 
 std::vector<SceneToRun> open_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides) {
-  std::vector<SceneToRun> scenes;
-  SceneProblems problems;
-  for (const std::string& file : files) {
-    try {
-      scenes.push_back(open_scene(file, overrides));
-    } catch (const UsageError& error) {
-      problems.add(file, error.what());
-    }
-  }
-  problems.throw_if_any(files);
-  return scenes;
+  return read_each(files, [&](const std::string& file) { return open_scene(file, overrides); });
 }
 
 void warn_of_gaps(const std::string& file, const MotionReader& motion, const FilmExtent& extent) {

@@ -31,6 +31,9 @@ constexpr double least_damping = 1.0 / 256, damping_growth = 4;
 constexpr int most_halvings = 40, most_rounds = 50;
 constexpr int most_useful = 150;  // iterations; a step that needs more rarely converges
 
+/// Returns κ relative to the stiffness of a contact's vertices.
+double stiffness_ratio(bool exact) { return exact ? newton_stiffness : relative_stiffness; }
+
 double longest(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }
 
 }  // namespace
@@ -170,8 +173,7 @@ void ContactSolver::set_stiffness(const ContactProblem& problem) {
       if (free_[static_cast<Index>(vertex)] == 0) continue;
       compliance += contact.weights[i] * contact.weights[i] / problem.stiffness(vertex, contact.normal);
     }
-    const double solid = problem.exact() ? newton_stiffness : relative_stiffness;
-    contact.stiffness = (contact.welds ? weld_stiffness : solid) / compliance;
+    contact.stiffness = (contact.welds ? weld_stiffness : stiffness_ratio(problem.exact())) / compliance;
   }
 }
 
@@ -262,8 +264,7 @@ std::vector<HeldDirection> ContactSolver::held_directions(const std::vector<char
     const auto hold = [&](const Eigen::Vector3d& u) {
       const double stiffness = u.dot(response.stiffness * u);
       if (stiffness < least_held * contact.stiffness) return;
-      held.push_back(
-          {static_cast<int>(k), u, stiffness + contact.stiffness / (exact_ ? newton_stiffness : relative_stiffness)});
+      held.push_back({static_cast<int>(k), u, stiffness + contact.stiffness / stiffness_ratio(exact_)});
     };
     if (contact.welds) {
       for (int axis = 0; axis < 3; ++axis) hold(Eigen::Vector3d::Unit(axis));

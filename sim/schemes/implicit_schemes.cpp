@@ -85,12 +85,11 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   }
   books_.end(point_);
   divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
+  state.contact_forces.clear();
   // An unconverged solve does not determine a bounce well enough to give it energy.
-  if (touches && report.converged) contact_->rebound(of_the_moment_, state.v);
   if (touches && report.converged) {
+    contact_->rebound(of_the_moment_, state.v);
     state.contact_forces = contact_->forces();
-  } else {
-    state.contact_forces.clear();
   }
   system_.move(state, &point_.x);
   system_.correct(state);
@@ -126,12 +125,10 @@ StepReport Sdirk2::advance(State& state, StepForces& forces) {
   touched_ = touching_->is_blocked_by_contact(state, state.x + system_.step * state.v);
   if (touched_) return touching_->advance(state, forces);
   before_ = state;
+  state.contact_forces.clear();
   const StepReport freely = advance_freely(state, forces);
   touched_ = touching_->is_blocked_by_contact(before_, state.x);
-  if (!touched_) {
-    state.contact_forces.clear();
-    return freely;
-  }
+  if (!touched_) return freely;
   state = before_;
   StepReport report = touching_->advance(state, forces);
   report.iterations += freely.iterations;
