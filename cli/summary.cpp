@@ -238,6 +238,7 @@ std::string of_steps(const Statistics& s) {
       text += fmt::format(", {} steps not converged (worst residual {:.2g} N)", s.not_converged(), s.worst_residual());
     }
   }
+  if (s.redone() > 0) text += fmt::format(", {} steps redone by backward Euler", s.redone());
   if (const auto errors = s.exactness().errors()) {
     text += fmt::format(", estimated error {} per step (at most {})", readable_length(errors->mean),
                         readable_length(errors->largest));

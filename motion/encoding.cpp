@@ -115,15 +115,25 @@ MotionHeader unpack_header(std::string_view payload) {
   return header;
 }
 
+namespace {
+
+double flags_of(const StepRow& row) { return (row.converged ? 1 : 0) + (row.redone ? 2 : 0); }
+
+}  // namespace
+
 std::string pack_rows(const std::vector<StepRow>& rows) {
   const std::size_t before_cloths = own_columns + columns_of_collider * rows.front().colliders.size();
   std::vector<std::vector<double>> columns(before_cloths + columns_of_cloth * rows.front().cloths.size());
   for (const StepRow& row : rows) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    const std::array<double, own_columns> own{row.energies.kinetic,          row.energies.gravity,
-                                              row.energies.elastic,          static_cast<double>(row.iterations),
-                                              row.converged ? 1.0 : 0.0,     row.residual,
-                                              row.error.value_or(unknown),   static_cast<double>(row.substeps),
+    const std::array<double, own_columns> own{row.energies.kinetic,
+                                              row.energies.gravity,
+                                              row.energies.elastic,
+                                              static_cast<double>(row.iterations),
+                                              flags_of(row),
+                                              row.residual,
+                                              row.error.value_or(unknown),
+                                              static_cast<double>(row.substeps),
                                               row.estimate.value_or(unknown)};
     for (std::size_t k = 0; k < own.size(); ++k) columns[k].push_back(own[k]);
     for (std::size_t c = 0; c < row.colliders.size(); ++c) {
@@ -179,7 +189,9 @@ std::vector<StepRow> unpack_rows(std::string_view payload, const MotionHeader& h
     row.energies = {.kinetic = number(0), .gravity = number(1), .elastic = number(2)};
     if (!(number(3) >= 0 && number(3) < 1e9)) throw std::invalid_argument("has a number of iterations that cannot be");
     row.iterations = static_cast<int>(number(3));
-    row.converged = number(4) != 0;
+    if (!(number(4) >= 0 && number(4) < 4)) throw std::invalid_argument("has flags that cannot be");
+    row.converged = (static_cast<int>(number(4)) & 1) != 0;
+    row.redone = (static_cast<int>(number(4)) & 2) != 0;
     row.residual = number(5);
     if (!std::isnan(number(error_column))) row.error = number(error_column);
     if (!(number(7) >= 1 && number(7) < 1e9)) throw std::invalid_argument("has a number of substeps that cannot be");

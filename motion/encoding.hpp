@@ -18,6 +18,7 @@ struct StepRow {
   Energies energies;      ///< at its end [J]
   int iterations = 0;
   bool converged = true;
+  bool redone = false;
   std::int64_t substeps = 1;        ///< number of substeps
   std::optional<double> estimate;   ///< estimated error added by the step, if an accuracy is set [m]
   double residual = 0;              ///< ‖∇g‖ at its end [N]

@@ -266,6 +266,8 @@ EnergyMemory unpack_books(std::string_view payload, Eigen::Index vertices) {
   EnergyMemory books;
   books.explained = reader.number();
   books.work = reader.number();
+  const bool has_energy = reader.rest().size() > 3 * static_cast<std::size_t>(vertices) * sizeof(double);
+  if (has_energy) books.energy = reader.number();
   books.looked_at = vertices_of(reader.rest(), vertices);
   return books;
 }
@@ -289,8 +291,8 @@ bool has_states_until(const MotionReader& partial, std::int64_t step) {
 bool is_finite(const ResumePoint& found) {
   const Restraint& restraint = found.checkpoint.state.restraint;
   const std::optional<EnergyMemory>& books = found.checkpoint.books;
-  const bool known =
-      !books || (std::isfinite(books->explained) && std::isfinite(books->work) && books->looked_at.allFinite());
+  const bool known = !books || (std::isfinite(books->explained) && std::isfinite(books->work) &&
+                                std::isfinite(books->energy.value_or(0)) && books->looked_at.allFinite());
   const auto is_force = [](const ContactForce& contact) { return contact.force.allFinite(); };
   return known && std::ranges::all_of(found.checkpoint.state.contact_forces, is_force) &&
          restraint.acceleration.allFinite() && restraint.tensions.allFinite() &&
@@ -361,9 +363,10 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
     bytes += block(substeps_tag, pack(ByteWriter().whole(static_cast<std::uint64_t>(substeps)).text()));
   }
   if (const auto& books = checkpoint.books) {
-    bytes +=
-        block(books_tag,
-              pack(ByteWriter().number(books->explained).number(books->work).bytes(bytes_of(books->looked_at)).text()));
+    ByteWriter writer;
+    writer.number(books->explained).number(books->work);
+    if (books->energy) writer.number(*books->energy);
+    bytes += block(books_tag, pack(writer.bytes(bytes_of(books->looked_at)).text()));
   }
   if (!rows.empty()) bytes += block(rows_tag, pack_rows(rows));
   return bytes + block(times_tag, pack(bytes_of(microseconds)));

@@ -280,6 +280,8 @@ void add_simulation(py::module_& module) {
   py::class_<StepReport>(module, "StepReport", "How a step was computed.")
       .def_readonly("iterations", &StepReport::iterations, "Linear solves; 0 for a method that has none.")
       .def_readonly("converged", &StepReport::converged, "True if the stopping rule was met within max_iterations.")
+      .def_readonly("redone", &StepReport::redone,
+                    "True if sdirk2 gained energy, so that backward Euler took the step instead.")
       .def_readonly("kept", &StepReport::kept, "The part of the way to the last iterate that the step went, 0 to 1.")
       .def_readonly("substeps", &StepReport::substeps, "Number of substeps of the step.")
       .def_readonly("estimate", &StepReport::estimate,

@@ -179,7 +179,10 @@ void FrameSource::simulate(const FrameInterpolator::Receiver& receiver, const st
   try {
     Simulation simulation(scene_.simulation, Timing::none, make_stop(stop));
     run_steps(simulation, extent_.steps, observers, stop);
-    if (simulation.state().step == extent_.steps) statistics_.finish(simulation);
+    if (simulation.state().step == extent_.steps) {
+      statistics_.finish(simulation);
+      divergence_ = statistics_.instability().value_or("");
+    }
   } catch (const DivergedError& diverged) {
     divergence_ = diverged.what();
   } catch (const Interrupted&) {

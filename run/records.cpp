@@ -244,6 +244,7 @@ void MotionRecorder::add(const Simulation& simulation, const StepReport& report)
                              .energies = simulation.energies(),
                              .iterations = report.iterations,
                              .converged = report.converged,
+                             .redone = report.redone,
                              .substeps = report.substeps,
                              .estimate = report.estimate,
                              .residual = step == 0 ? 0 : simulation.residual(),

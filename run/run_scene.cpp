@@ -272,6 +272,10 @@ class Pipeline {
       if (simulation_->state().step < extent_.steps) return;
       result_.statistics.finish(*simulation_);
       all_steps_done_ = true;
+      if (const auto instability = result_.statistics.instability()) {
+        result_.outcome = Outcome::diverged;
+        result_.divergence = *instability;
+      }
     } catch (const Interrupted&) {  // during the error estimate of the last step
     } catch (const DivergedError& diverged) {
       result_.outcome = Outcome::diverged;

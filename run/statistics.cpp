@@ -1,5 +1,6 @@
 #include "run/statistics.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -107,6 +108,7 @@ void Statistics::after_step(const Simulation& simulation, const StepReport& repo
   exactness_.after_step(simulation, report, seconds);
   energy_rise_.after_step(simulation, report, seconds);
   effect_seconds_ = simulation.effect_seconds();
+  redone_ += report.redone ? 1 : 0;
   note(report.iterations, report.substeps, report.converged, report.converged ? 0 : simulation.residual(), seconds);
 }
 
@@ -114,6 +116,7 @@ void Statistics::replay(const StepRow& row, double time, double seconds) {
   energy_rise_.replay(row, time, seconds);
   if (row.step == 0) return;
   exactness_.replay(row, time, seconds);
+  redone_ += row.redone ? 1 : 0;
   note(row.iterations, row.substeps, row.converged, row.residual, seconds);
   ++replayed_;
 }
@@ -127,6 +130,17 @@ void Statistics::note(int iterations, std::int64_t substeps, bool converged, dou
   if (converged) return;
   ++not_converged_;
   worst_residual_ = std::max(worst_residual_, residual);
+}
+
+std::optional<std::string> Statistics::instability() const {
+  constexpr double most_redone = 0.05;  // fraction of the steps
+  const double share = static_cast<double>(redone_) / static_cast<double>(std::max<std::int64_t>(1, steps()));
+  if (share <= most_redone) return std::nullopt;
+  return fmt::format(
+      "sdirk2 gained energy in {} of {} steps, which backward Euler took instead; more than {:g} % mean that sdirk2 is "
+      "unstable here: use a smaller tolerance and more max_iterations, a shorter [time] step, or scheme = "
+      "\"backward-euler\"",
+      redone_, steps(), 100 * most_redone);
 }
 
 double Statistics::mean_iterations() const {
@@ -222,6 +236,7 @@ std::string Statistics::to_json(const std::string& outcome) const {
                                         {{"mean", mean_iterations()},
                                          {"max", max_iterations_},
                                          {"steps_not_converged", not_converged_},
+                                         {"steps_redone", redone_},
                                          {"worst_residual", worst_residual_}}},
                                        {"accuracy", accuracy_json(*this)},
                                        {"energy_rise", rise_json(*this)},

@@ -127,6 +127,10 @@ class Statistics final : public StepObserver {
   [[nodiscard]] std::int64_t not_converged() const { return not_converged_; }
   /// Returns the largest residual ‖∇g‖ of these steps [N].
   [[nodiscard]] double worst_residual() const { return worst_residual_; }
+  /// Returns the number of steps in which SDIRK2 gained energy, so that backward Euler took them instead.
+  [[nodiscard]] std::int64_t redone() const { return redone_; }
+  /// Returns the message of a run that had to redo too many steps, otherwise nothing.
+  [[nodiscard]] std::optional<std::string> instability() const;
   /// Returns the mean number of substeps per step.
   [[nodiscard]] double mean_substeps() const;
   [[nodiscard]] std::int64_t max_substeps() const { return max_substeps_; }
@@ -161,7 +165,7 @@ class Statistics final : public StepObserver {
   std::vector<std::string> effects_;
   std::vector<double> effect_seconds_;  // empty unless the simulation measures them [s]
   std::vector<float> microseconds_;
-  std::int64_t iterations_ = 0, not_converged_ = 0, substeps_ = 0, max_substeps_ = 0;
+  std::int64_t iterations_ = 0, not_converged_ = 0, redone_ = 0, substeps_ = 0, max_substeps_ = 0;
   int max_iterations_ = 0;
   std::size_t replayed_ = 0;  // number of steps
   double worst_residual_ = 0;

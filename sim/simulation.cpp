@@ -104,18 +104,28 @@ class Simulation::Motion {
         forces(*system, state),
         guard(make_asked_guard(settings, *system)),
         scheme(make_scheme()),
-        energy([this] {
-          const Energies now = energies();
-          return now.kinetic + now.elastic;
+        energy([this](double enough) {
+          const std::optional<double> bound = scheme->energy_bound(state);
+          return bound && *bound <= enough ? *bound : present_energy();
         }) {
-    guard->begin(state, energy);
+    guard->begin(state, present_energy());
   }
   Motion(const Motion&) = delete;
   Motion& operator=(const Motion&) = delete;
 
   StepReport step();
+  /// Takes a step by a function of the scheme. Restores the state at its start if it is interrupted.
+  template <class Advance>
+  StepReport take(const Advance& advance);
+  /// Returns an error if the last step gained energy or did not end in finite numbers.
+  std::optional<DivergedError> find_fault();
   void restore(const Simulation::Checkpoint& checkpoint);
   Energies energies();
+  /// Returns K + E [J].
+  double present_energy() {
+    const Energies now = energies();
+    return now.kinetic + now.elastic;
+  }
   std::vector<Energies> piece_energies();
   [[nodiscard]] double time() const { return static_cast<double>(state.step) * settings.step; }
   /// Returns true if a step checks for a stop after its start.
@@ -157,26 +167,48 @@ std::unique_ptr<Scheme> Simulation::Motion::make_scheme() {
                             [this](double step) { return make_system(settings, step, measured(), stop, threads); });
 }
 
-StepReport Simulation::Motion::step() {
-  stop.look();
-  if (phases.size() > 1) enter_phase();
-  if (may_be_interrupted()) {
-    before.state = state;
-    before.books = guard->books();
-  }
+template <class Advance>
+StepReport Simulation::Motion::take(const Advance& advance) {
   StepReport report;
   try {
-    report = scheme->advance(state, forces);
+    report = advance();
   } catch (const Interrupted&) {
     restore(before);
     throw;
   }
   for (const auto& filter : system->filters) report.converged = report.converged && filter->converged();
   ++state.step;
+  return report;
+}
+
+std::optional<DivergedError> Simulation::Motion::find_fault() {
   // Any non-finite position makes this norm non-finite, and any such velocity its vertex's position.
   const std::optional<double> size = scheme->size();
-  if (!std::isfinite(size ? *size : norm(threads, state.x))) throw diverged_by(std::nullopt);
-  if (const auto growth = guard->look(state, forces.push(), forces.constant(), energy)) throw diverged_by(growth);
+  if (!std::isfinite(size ? *size : norm(threads, state.x))) return diverged_by(std::nullopt);
+  const std::optional<double> growth = guard->look(state, forces.push(), forces.constant(), energy);
+  // A step of backward Euler in place of another scheme's has its own books.
+  if (growth && !scheme->first_order()) return diverged_by(growth);
+  return std::nullopt;
+}
+
+StepReport Simulation::Motion::step() {
+  stop.look();
+  if (phases.size() > 1) enter_phase();
+  if (may_be_interrupted() || scheme->can_redo()) {
+    before.state = state;
+    if (const EnergyMemory* books = guard->books()) before.books = *books;
+  }
+  StepReport report = take([this] { return scheme->advance(state, forces); });
+  std::optional<DivergedError> fault = find_fault();
+  if (fault && scheme->can_redo()) {
+    const int iterations = report.iterations;
+    restore(before);
+    report = take([this] { return scheme->redo(state, forces); });
+    report.iterations += iterations;
+    report.redone = true;
+    fault = find_fault();
+  }
+  if (fault) throw DivergedError(*fault);
   return report;
 }
 
@@ -239,10 +271,13 @@ void Simulation::undo_step() {
 
 void Simulation::restore(const State& state) {
   motion_->state = state;
-  motion_->guard->begin(state, motion_->energy);
+  motion_->guard->begin(state, motion_->present_energy());
 }
 
-Simulation::Checkpoint Simulation::checkpoint() const { return {motion_->state, motion_->guard->books()}; }
+Simulation::Checkpoint Simulation::checkpoint() const {
+  const EnergyMemory* books = motion_->guard->books();
+  return {motion_->state, books == nullptr ? std::nullopt : std::optional(*books)};
+}
 
 void Simulation::restore(const Checkpoint& checkpoint) { motion_->restore(checkpoint); }
 

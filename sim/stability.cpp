@@ -226,27 +226,28 @@ double BlowUpWatch::limit(double ratio) {
   return std::min(limit_of_unstable_steps, 4 * (1 + ratio) / (1 - ratio));
 }
 
-BlowUpWatch::BlowUpWatch(const System& system, double limit, int interval)
-    : step_(system.whole_step), limit_(limit), interval_(interval) {
-  // With every spring at its rest length, a relative rounding error ε of lengths leaves Σ k (εL)²/2.
+double energy_rounding(const System& system) {
   double scale = std::numeric_limits<double>::min();
   for (const Spring& s : system.springs) scale += s.stiffness * s.rest_length * s.rest_length;
-  rounding_ = std::numeric_limits<double>::epsilon() * scale;
+  return std::numeric_limits<double>::epsilon() * scale;
 }
 
+BlowUpWatch::BlowUpWatch(const System& system, double limit, int interval)
+    : step_(system.whole_step), limit_(limit), interval_(interval), rounding_(energy_rounding(system)) {}
+
 void BlowUpWatch::begin(const State& state, double energy) {
-  books_ = {.explained = std::max(energy, rounding_), .looked_at = state.x, .work = 0};
+  books_ = {.explained = std::max(energy, rounding_), .looked_at = state.x, .work = 0, .energy = {}};
 }
 
 std::optional<double> BlowUpWatch::look(const State& state, const Vertices& push, bool constant,
-                                        const std::function<double()>& energy) {
+                                        const std::function<double(double enough)>& energy) {
   if (!constant) books_.work += step_ * std::abs(push.cwiseProduct(state.v).sum());
   if (state.step % interval_ != 0) return std::nullopt;
   if (constant) books_.work = std::abs(push.cwiseProduct(state.x - books_.looked_at).sum());
   books_.explained += books_.work;
   books_.looked_at = state.x;
   books_.work = 0;
-  const double now = energy();
+  const double now = energy(limit_ * books_.explained);
   if (!(now > limit_ * books_.explained)) return std::nullopt;
   return now / books_.explained;
 }

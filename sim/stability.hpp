@@ -37,6 +37,10 @@ double condition_bound(const System& system);
 /// Value of condition_bound() beyond which double precision loses the inertia beside the springs.
 inline constexpr double largest_condition = 1e14;
 
+/// Returns the rounding error of the elastic energy due to the positions [J]. With every spring at its rest length, a
+/// relative error ε of lengths leaves Σ k (εL)²/2.
+double energy_rounding(const System& system);
+
 /// Detector of motions with more energy than the explained energy, which is the initial one plus the work of the
 /// forces, Σ|f·Δx|.
 class BlowUpWatch {
@@ -57,22 +61,21 @@ class BlowUpWatch {
   /// Begins with a state of the energy K + E [J].
   void begin(const State& state, double energy);
 
-  /// Checkpoint state.
-  using EnergyHistory = EnergyMemory;
-  [[nodiscard]] const EnergyHistory& books() const { return books_; }
+  /// Returns the checkpoint state.
+  [[nodiscard]] const EnergyMemory& books() const { return books_; }
   /// Restores a checkpoint state.
-  void go_on(const EnergyHistory& books) { books_ = books; }
+  void go_on(const EnergyMemory& books) { books_ = books; }
 
   /// Adds the work of a step that has ended, and checks the energy after every interval, see StabilityGuard::look.
   std::optional<double> look(const State& state, const Vertices& push, bool constant,
-                             const std::function<double()>& energy);
+                             const std::function<double(double enough)>& energy);
 
  private:
   double step_;  // [s]
   double limit_;
   int interval_;
-  double rounding_;  // rounding error of the energy due to the positions [J]
-  EnergyHistory books_;
+  double rounding_;  // see energy_rounding() [J]
+  EnergyMemory books_;
 };
 
 /// Returns an error that names the step, the time, the worst vertex (the first non-finite, or else the fastest), the

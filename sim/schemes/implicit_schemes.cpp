@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/parallel/vectors.hpp"
 
@@ -107,30 +108,43 @@ constexpr double delta = 1 - 1 / (2 * gamma);
 }  // namespace
 
 Sdirk2::Sdirk2(const System& system, const MakeSolver& make_solver)
-    : MinimisingScheme(system, tableau::gamma * system.step, make_solver, Directions::predicted) {
-  if (!system.contacts.empty()) touching_.emplace(system, make_solver, true);
+    : MinimisingScheme(system, tableau::gamma * system.step, make_solver, Directions::predicted),
+      make_solver_(make_solver) {
+  if (!system.contacts.empty()) euler_.emplace(system, make_solver, true);
 }
 
 void Sdirk2::expect(const Vertices& early, const Vertices& late) {
   MinimisingScheme::expect(early, late);
-  if (touching_) touching_->expect(early, late);
+  if (euler_) euler_->expect(early, late);
 }
 
-double Sdirk2::residual() { return touched_ ? touching_->residual() : MinimisingScheme::residual(); }
-double Sdirk2::error() { return touched_ ? touching_->error() : MinimisingScheme::error(); }
-double Sdirk2::residual_force() { return touched_ ? touching_->residual_force() : MinimisingScheme::residual_force(); }
+double Sdirk2::residual() { return by_euler_ ? euler_->residual() : MinimisingScheme::residual(); }
+double Sdirk2::error() { return by_euler_ ? euler_->error() : MinimisingScheme::error(); }
+double Sdirk2::residual_force() { return by_euler_ ? euler_->residual_force() : MinimisingScheme::residual_force(); }
+
+StepReport Sdirk2::redo(State& state, StepForces& forces) {
+  if (!euler_) euler_.emplace(system_, make_solver_, true);
+  by_euler_ = true;
+  return euler_->advance(state, forces);
+}
+
+std::optional<double> Sdirk2::energy_bound(const State& state) const {
+  if (by_euler_ || !system_.filters.empty()) return std::nullopt;
+  const double kinetic = 0.5 * system_.cloth.masses.dot(state.v.rowwise().squaredNorm());
+  // Dissipation potentials of the stage are not negative.
+  return kinetic + point_.value - objective_.inertial_value(point_.x);
+}
 
 StepReport Sdirk2::advance(State& state, StepForces& forces) {
-  if (!touching_) return advance_freely(state, forces);
-  touched_ = touching_->is_blocked_by_contact(state, state.x + system_.step * state.v);
-  if (touched_) return touching_->advance(state, forces);
+  by_euler_ = false;
+  if (system_.contacts.empty()) return advance_freely(state, forces);
+  if (euler_->is_blocked_by_contact(state, state.x + system_.step * state.v)) return redo(state, forces);
   before_ = state;
   state.contact_forces.clear();
   const StepReport freely = advance_freely(state, forces);
-  touched_ = touching_->is_blocked_by_contact(before_, state.x);
-  if (!touched_) return freely;
+  if (!euler_->is_blocked_by_contact(before_, state.x)) return freely;
   state = before_;
-  StepReport report = touching_->advance(state, forces);
+  StepReport report = redo(state, forces);
   report.iterations += freely.iterations;
   return report;
 }
@@ -194,27 +208,37 @@ void Sdirk2::solve(double end, const Vertices* expected, StepReport& report) {
   report.rise = std::max(report.rise, stage.rise);
 }
 
-Sdirk2Guard::Sdirk2Guard(const System& system) : condition_(system) {
-  constexpr int interval = 16;  // a check costs about as much as an iteration
-  const bool forces_only = system.pin_motions.empty() && system.filters.empty() && system.contacts.empty();
-  if (forces_only) watch_.emplace(system, limit, interval);
+Sdirk2Guard::Sdirk2Guard(const System& system)
+    : condition_(system),
+      watches_(system.pin_motions.empty() && system.filters.empty() && system.contacts.empty()),
+      rounding_(energy_rounding(system)) {
+  watches_ = watches_ || system.only_loses_energy();
 }
 
-void Sdirk2Guard::begin(const State& state, const EnergyNow& energy) {
-  if (watch_) watch_->begin(state, energy());
+void Sdirk2Guard::begin(const State& state, double energy) {
+  if (!watches_) return;
+  books_ = {.explained = std::max(energy, rounding_), .looked_at = state.x, .work = energy, .energy = energy};
 }
 
-std::optional<double> Sdirk2Guard::look(const State& state, const Vertices& push, bool constant,
+void Sdirk2Guard::go_on(const EnergyMemory& books) {
+  if (watches_) books_ = books;
+}
+
+std::optional<double> Sdirk2Guard::look(const State& state, const Vertices& push, bool /*constant*/,
                                         const EnergyNow& energy) {
-  return watch_ ? watch_->look(state, push, constant, energy) : std::nullopt;
-}
-
-std::optional<BlowUpWatch::EnergyHistory> Sdirk2Guard::books() const {
-  return watch_ ? std::optional(watch_->books()) : std::nullopt;
-}
-
-void Sdirk2Guard::go_on(const BlowUpWatch::EnergyHistory& books) {
-  if (watch_) watch_->go_on(books);
+  if (!watches_) return std::nullopt;
+  EnergyMemory& books = *books_;
+  const double work = push.cwiseProduct(state.x - books.looked_at).sum();
+  const double before = books.energy.value_or(books.work);
+  books.work += work;
+  books.explained = std::max(books.explained, books.work);
+  const double slack = most_gain * books.explained;
+  const double most = before + work + std::clamp(books.work + slack - before - work, 0.0, slack);
+  const double now = energy(most);
+  books.energy = now;
+  books.looked_at = state.x;
+  if (now <= most) return std::nullopt;
+  return now / books.explained;
 }
 
 std::string Sdirk2Guard::remedy() const {

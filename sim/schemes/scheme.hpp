@@ -38,6 +38,14 @@ class Scheme {
   /// Returns true if a scheme of second order has taken the last step with first order.
   [[nodiscard]] virtual bool first_order() const { return false; }
 
+  /// Returns true if redo() can take steps.
+  [[nodiscard]] virtual bool can_redo() const { return false; }
+  /// Advances by the same step as advance(), but gains no energy.
+  virtual StepReport redo(State& state, StepForces& forces) { return advance(state, forces); }
+  /// Returns an upper bound on K + E after the last step [J], if it is known without an evaluation.
+  /// @param state as the step has left it
+  [[nodiscard]] virtual std::optional<double> energy_bound(const State& /*state*/) const { return std::nullopt; }
+
   // Methods that minimise nothing return zero or nothing:
 
   /// Returns the estimated distance of the worst vertex from the exact solution of the last step [m]; see

@@ -29,8 +29,8 @@ std::optional<std::string> SafeStepGuard::problem() const {
       step_, scheme_, safe_step_);
 }
 
-void SafeStepGuard::begin(const State& state, const EnergyNow& energy) {
-  if (watch_) watch_->begin(state, energy());
+void SafeStepGuard::begin(const State& state, double energy) {
+  if (watch_) watch_->begin(state, energy);
 }
 
 std::optional<double> SafeStepGuard::look(const State& state, const Vertices& push, bool constant,
@@ -38,11 +38,7 @@ std::optional<double> SafeStepGuard::look(const State& state, const Vertices& pu
   return watch_ ? watch_->look(state, push, constant, energy) : std::nullopt;
 }
 
-std::optional<BlowUpWatch::EnergyHistory> SafeStepGuard::books() const {
-  return watch_ ? std::optional(watch_->books()) : std::nullopt;
-}
-
-void SafeStepGuard::go_on(const BlowUpWatch::EnergyHistory& books) {
+void SafeStepGuard::go_on(const EnergyMemory& books) {
   if (watch_) watch_->go_on(books);
 }
 

@@ -24,11 +24,13 @@ class StabilityGuard {
   /// Returns the longest step that the scheme itself may take [s].
   [[nodiscard]] virtual double longest_step() const = 0;
 
-  /// Function that returns K + E of the present state [J]; called only if needed.
-  using EnergyNow = std::function<double()>;
+  /// Function that returns K + E of the present state [J], or an upper bound that is not above `enough`; called only if
+  /// needed.
+  using EnergyNow = std::function<double(double enough)>;
 
   /// Begins to watch a motion, or restarts from another state of it.
-  virtual void begin(const State& /*state*/, const EnergyNow& /*energy*/) {}
+  /// @param energy K + E of the state [J]
+  virtual void begin(const State& /*state*/, double /*energy*/) {}
 
   /// Checks a step that ended in a state, after its `step` was advanced.
   /// @param push forces of the step, n×3 [N]; @param constant true if they are the same in every step
@@ -38,10 +40,10 @@ class StabilityGuard {
     return std::nullopt;
   }
 
-  /// Returns the checkpoint state of the watch, if any.
-  [[nodiscard]] virtual std::optional<BlowUpWatch::EnergyHistory> books() const { return std::nullopt; }
+  /// Returns the checkpoint state of the watch, or null.
+  [[nodiscard]] virtual const EnergyMemory* books() const { return nullptr; }
   /// Restores the checkpoint state of a motion.
-  virtual void go_on(const BlowUpWatch::EnergyHistory& /*books*/) {}
+  virtual void go_on(const EnergyMemory& /*books*/) {}
 
   /// Returns the advice for a motion that blew up, as the end of a message.
   [[nodiscard]] virtual std::string remedy() const = 0;
@@ -56,10 +58,10 @@ class SafeStepGuard final : public StabilityGuard {
 
   [[nodiscard]] std::optional<std::string> problem() const override;
   [[nodiscard]] double longest_step() const override { return safe_step_; }
-  void begin(const State& state, const EnergyNow& energy) override;
+  void begin(const State& state, double energy) override;
   std::optional<double> look(const State& state, const Vertices& push, bool constant, const EnergyNow& energy) override;
-  [[nodiscard]] std::optional<BlowUpWatch::EnergyHistory> books() const override;
-  void go_on(const BlowUpWatch::EnergyHistory& books) override;
+  [[nodiscard]] const EnergyMemory* books() const override { return watch_ ? &watch_->books() : nullptr; }
+  void go_on(const EnergyMemory& books) override;
   [[nodiscard]] std::string remedy() const override;
 
  private:

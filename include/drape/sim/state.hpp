@@ -69,11 +69,12 @@ struct State {
 /// Returns a hash of all bits of a state. Two runs with the same hash agree from there on. Not cryptographic.
 std::uint64_t hash_of(const State& state);
 
-/// Energy history of a simulation, to detect a blow-up.
+/// Energy history of a simulation, to detect a blow-up or a step that gains energy.
 struct EnergyMemory {
-  double explained = 0;  ///< [J]
-  Vertices looked_at;    ///< positions at the last check, n×3 [m]
-  double work = 0;       ///< since the last check [J]
+  double explained = 0;          ///< [J]
+  Vertices looked_at;            ///< positions at the last check, n×3 [m]
+  double work = 0;               ///< since the last check; by SDIRK2: since the start, plus the initial energy [J]
+  std::optional<double> energy;  ///< by SDIRK2: kinetic and elastic energy at the last check [J]
 };
 
 /// A sphere at one moment.
@@ -126,6 +127,7 @@ struct StepReport {
   bool converged = true;           ///< true if the stopping rule and every motion filter converged within their limits
   double kept = 1;                 ///< fraction of the path to the last iterate that the step kept, see BackwardEuler
   double rise = 0;                 ///< largest increase of g in an iteration beyond rounding [J]: a fault
+  bool redone = false;             ///< true if SDIRK2 gained energy, so that backward Euler took the step instead
   std::int64_t substeps = 1;       ///< number of substeps, see SubstepScheme
   std::optional<double> estimate;  ///< error added by the step [m], if an accuracy is set
 };
