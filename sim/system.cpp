@@ -231,6 +231,7 @@ struct TimedContacts final : Timed<ContactSource> {
     const Stopwatch watch(seconds);
     inner->find(target, source, held, contacts);
   }
+  [[nodiscard]] bool separates() const override { return inner->separates(); }
 };
 
 template <class TimedKind, class List>

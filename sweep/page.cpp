@@ -207,6 +207,7 @@ std::string figure_title(const std::string& name) {
       {"iterations.mean", "iterations per step"},
       {"iterations.max", "most iterations of a step"},
       {"iterations.steps_not_converged", "steps that did not converge"},
+      {"iterations.steps_redone", "steps redone by backward Euler"},
       {"iterations.worst_residual", "worst residual [N]"},
       {"accuracy.estimated_error.mean", "estimated error of a step [m]"},
       {"accuracy.estimated_error.largest", "largest estimated error of a step [m]"},

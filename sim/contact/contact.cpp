@@ -10,9 +10,7 @@ Bounce bounce_of(const ContactConstraint& contact, const FreeFlight& flight) {
   if (!(contact.restitution > 0)) return {};
   const Eigen::Vector3d& n = contact.normal;
   const double h = flight.h;
-  double weight = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) weight += contact.weights[i];
-  const double fall = weight * flight.gravity.dot(n);
+  const double fall = contact.weight() * flight.gravity.dot(n);
   const double c = std::max(0.0, contact.start.dot(n) - contact.distance);
   const double end = contact.place(flight.target).dot(n) - contact.distance;
   if (!(end < 0)) return {};

@@ -54,12 +54,10 @@ struct ContactConstraint {
       sum += weights[i] * x.row(vertices[i]).transpose();
     return sum;
   }
-  /// Returns the same sum over free vertices only [m].
-  [[nodiscard]] Eigen::Vector3d gather_free(const Vertices& x, const std::vector<char>& free) const {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      if (free[static_cast<std::size_t>(vertices[i])] != 0) sum += weights[i] * x.row(vertices[i]).transpose();
-    }
+  /// Returns Σ weights: 0 between features of the cloth, ±1 with an obstacle.
+  [[nodiscard]] double weight() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) sum += weights[i];
     return sum;
   }
   /// Returns true if free vertices carry enough of the weights. Otherwise they would have to move far.
@@ -73,11 +71,7 @@ struct ContactConstraint {
     return moved > 0 && moved >= least_free * all;
   }
   /// Returns true if one of the features belongs to an obstacle.
-  [[nodiscard]] bool with_obstacle() const {
-    double sum = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) sum += weights[i];
-    return std::abs(sum) > 0.5;
-  }
+  [[nodiscard]] bool with_obstacle() const { return std::abs(weight()) > 0.5; }
   /// Returns d(x) [m].
   [[nodiscard]] Eigen::Vector3d place(const Vertices& x) const { return gather(x) + offset; }
   /// Adds weights·value to the rows of the vertices.

@@ -44,7 +44,6 @@ class ContactProblem {
   ConstantFactor& factor_;
   ImplicitHessian hessian_;
   Eigen::Matrix<double, Eigen::Dynamic, 6> diagonal_;  // diagonal blocks of H: xx, xy, xz, yy, yz, zz [N/m]
-  HessianBlocks energies_;
   SpringNetwork::Blocks blocks_;
   Eigen::VectorXd most_;  // largest stiffness of each vertex [N/m]
   double damping_ = 0;

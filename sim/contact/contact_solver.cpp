@@ -319,7 +319,7 @@ void ContactSolver::iterate_linearly(ContactProblem& problem, const Solve& solve
     if (!(energy > linear_tolerance * linear_tolerance * first)) return;
     problem.multiply(search_, product_);
     for (Index k = 0; k < contacts_.size(); ++k) {
-      contacts_[k].scatter(responses_[k].stiffness * contacts_[k].gather_free(search_, free_), product_);
+      contacts_[k].scatter(responses_[k].stiffness * contacts_[k].gather(search_), product_);
     }
     for (const int pin : system_.cloth.pins) product_.row(pin).setZero();
     const double curvature = dot(threads, search_, product_);
@@ -430,9 +430,7 @@ void ContactSolver::move_with_obstacles(Vertices& x) {
   for (const ContactConstraint& contact : contacts_) {
     if (!contact.collides) continue;
     if (!contact.with_obstacle()) continue;
-    double weight = 0;
-    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) weight += contact.weights[i];
-    const Eigen::RowVector3d way = -contact.carried.transpose() / weight;
+    const Eigen::RowVector3d way = -contact.carried.transpose() / contact.weight();
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
       const int vertex = contact.vertices[i];
       if (free_[static_cast<Index>(vertex)] != 0) x.row(vertex) = start_.row(vertex) + way;
@@ -510,12 +508,11 @@ void ContactSolver::rebound(bool instantaneous, Vertices& v) const {
       if (instantaneous && now > most) give_velocity(contact, (most - now) * n, v);
       continue;
     }
-    double weight = 0, compliance = 0;
+    double compliance = 0;
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
-      weight += contact.weights[i];
       compliance += contact.weights[i] * contact.weights[i] / system_.cloth.masses[contact.vertices[i]];
     }
-    const double later = instantaneous ? flight_.h / 2 * weight * flight_.gravity.dot(n) : 0;
+    const double later = instantaneous ? flight_.h / 2 * contact.weight() * flight_.gravity.dot(n) : 0;
     if (flies_freely(contact)) {
       bounce.turned = bounce.leaves + later - now;  // independent of the gap that the solve left
     } else {
