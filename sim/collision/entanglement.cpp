@@ -11,12 +11,13 @@ namespace {
 
 std::size_t slot(int vertex) { return static_cast<std::size_t>(vertex); }
 
+}  // namespace
+
 int root_of(const std::vector<int>& parent, int vertex) {
   while (parent[slot(vertex)] != vertex) vertex = parent[slot(vertex)];
   return vertex;
 }
 
-/// Joins the trees of two vertices under the smaller root.
 void join_trees(std::vector<int>& parent, int i, int j) {
   const auto [low, high] = std::minmax({root_of(parent, i), root_of(parent, j)});
   parent[slot(high)] = low;
@@ -24,8 +25,6 @@ void join_trees(std::vector<int>& parent, int i, int j) {
     while (parent[slot(v)] != low) v = std::exchange(parent[slot(v)], low);
   }
 }
-
-}  // namespace
 
 Entanglement::Entanglement(std::vector<std::vector<Triangle>> meshes, std::size_t point_count,
                            const std::vector<int>& pins)

@@ -8,6 +8,11 @@
 
 namespace drape {
 
+/// Returns the root of a vertex's tree in a forest of parents; a root is its own parent.
+[[nodiscard]] int root_of(const std::vector<int>& parent, int vertex);
+/// Joins the trees of two vertices under the smaller root.
+void join_trees(std::vector<int>& parent, int i, int j);
+
 /// Search for the vertices of meshes on the wrong side of a triangle, and for the way back.
 ///
 /// Edges that pass through triangles are cut, which may divide a piece of a mesh into parts. The largest part of a

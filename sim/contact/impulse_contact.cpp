@@ -1,9 +1,15 @@
 #include "sim/contact/impulse_contact.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <utility>
+
+#include "sim/collision/entanglement.hpp"
 
 namespace drape {
 namespace {
@@ -30,7 +36,68 @@ Eigen::Vector3d limited(const Eigen::Vector3d& across, double most) {
   return size > most ? Eigen::Vector3d(most / size * across) : across;
 }
 
+/// Returns ω with inertia·ω = momentum, without rotation about axes of zero inertia, as for collinear vertices.
+Point angular_velocity(const Eigen::Matrix3d& inertia, const Point& momentum) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+  axes.computeDirect(inertia);
+  const double largest = axes.eigenvalues()[2];
+  Point result = Point::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (!(axes.eigenvalues()[k] > 1e-9 * largest)) continue;
+    const Point axis = axes.eigenvectors().col(k);
+    result += axis.dot(momentum) / axes.eigenvalues()[k] * axis;
+  }
+  return result;
+}
+
+/// Moves the vertices of one zone, in ascending order, see move_rigidly.
+void move_zone(const std::vector<int>& members, const std::vector<Point>& x, const std::vector<double>& inverse_masses,
+               std::vector<Point>& velocities) {
+  Point center = Point::Zero(), velocity = Point::Zero(), spin = Point::Zero();
+  const auto pin = std::ranges::find_if(members, [&](int v) { return inverse_masses[Index(v)] == 0; });
+  if (pin != members.end()) {
+    velocity = velocities[Index(*pin)];
+  } else {
+    double total = 0;
+    for (const int v : members) {
+      const double mass = 1 / inverse_masses[Index(v)];
+      total += mass;
+      center += mass * x[Index(v)];
+      velocity += mass * velocities[Index(v)];
+    }
+    center /= total;
+    velocity /= total;
+    Point angular_momentum = Point::Zero();
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+    for (const int v : members) {
+      const double mass = 1 / inverse_masses[Index(v)];
+      const Point arm = x[Index(v)] - center;
+      angular_momentum += mass * arm.cross(velocities[Index(v)] - velocity);
+      inertia += mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    }
+    spin = angular_velocity(inertia, angular_momentum);
+  }
+  for (const int v : members) {
+    if (inverse_masses[Index(v)] != 0) velocities[Index(v)] = velocity + spin.cross(x[Index(v)] - center);
+  }
+}
+
 }  // namespace
+
+void move_rigidly(const std::vector<std::array<int, 4>>& groups, bool all, const std::vector<Point>& x,
+                  const std::vector<double>& inverse_masses, std::vector<Point>& velocities) {
+  std::vector<int> parent(x.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const auto& group : groups) {
+    for (const int v : group) join_trees(parent, all ? groups.front()[0] : group[0], v);
+  }
+  std::map<int, std::vector<int>> zones;  // members by their root, which is the smallest
+  for (int v = 0; v < static_cast<int>(parent.size()); ++v) {
+    const int root = root_of(parent, v);
+    if (root != v) zones.try_emplace(root, 1, root).first->second.push_back(v);
+  }
+  for (const auto& [root, members] : zones) move_zone(members, x, inverse_masses, velocities);
+}
 
 ImpulseContact::ImpulseContact(std::vector<std::shared_ptr<ContactSource>> sources, const Cloth& cloth,
                                const Eigen::Vector3d& gravity)
@@ -198,13 +265,12 @@ bool ImpulseContact::any_collides() const {
 void ImpulseContact::hold() {
   const Index count = inverse_masses_.size();
   std::vector<std::array<int, 4>> joined;
-  std::vector<Point> velocities(count);
-  places_.resize(count);
+  std::vector<double> inverse_masses = inverse_masses_;
+  std::vector<Point> places(count), velocities(count), moved;
   for (Index i = 0; i < count; ++i) {
-    places_[i] = x_->row(static_cast<Eigen::Index>(i)).transpose();
-    velocities[i] = (target_.row(static_cast<Eigen::Index>(i)).transpose() - places_[i]) / flight_.h;
+    places[i] = x_->row(static_cast<Eigen::Index>(i)).transpose();
+    velocities[i] = (target_.row(static_cast<Eigen::Index>(i)).transpose() - places[i]) / flight_.h;
   }
-  moving_.inverse_masses = inverse_masses_;
   converged_ = false;
   for (int round = 0; any_collides(); ++round) {
     check_stop();
@@ -215,32 +281,30 @@ void ImpulseContact::hold() {
         more = more || std::ranges::find(joined, impulse.contact.vertices) == joined.end();
         joined.push_back(impulse.contact.vertices);
       } else {
-        more = hold_with_obstacle(impulse.contact, velocities) || more;
+        more = hold_with_obstacle(impulse.contact, inverse_masses, velocities) || more;
       }
     }
     if (!more) return;
-    moving_.velocities = velocities;
-    zones_.begin(velocities);
-    for (const auto& vertices : joined) zones_.join(vertices);
-    if (round >= most_held_rounds) zones_.join_all();
-    zones_.apply(places_, moving_);
+    moved = velocities;
+    move_rigidly(joined, round >= most_held_rounds, places, inverse_masses, moved);
     for (Index i = 0; i < count; ++i) {
       if (inverse_masses_[i] > 0) {
-        target_.row(static_cast<Eigen::Index>(i)) = (places_[i] + flight_.h * moving_.velocities[i]).transpose();
+        target_.row(static_cast<Eigen::Index>(i)) = (places[i] + flight_.h * moved[i]).transpose();
       }
     }
     find();
   }
 }
 
-bool ImpulseContact::hold_with_obstacle(const ContactConstraint& contact, std::vector<Point>& velocities) {
+bool ImpulseContact::hold_with_obstacle(const ContactConstraint& contact, std::vector<double>& inverse_masses,
+                                        std::vector<Point>& velocities) const {
   double weight = 0;
   for (Index i = 0; i < Index(contact.count); ++i) weight += contact.weights[i];
   bool more = false;
   for (Index i = 0; i < Index(contact.count); ++i) {
     const auto vertex = Index(contact.vertices[i]);
-    if (moving_.inverse_masses[vertex] == 0) continue;
-    moving_.inverse_masses[vertex] = 0;
+    if (inverse_masses[vertex] == 0) continue;
+    inverse_masses[vertex] = 0;
     velocities[vertex] = -contact.carried / (flight_.h * weight);
     more = true;
   }

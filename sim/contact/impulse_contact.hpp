@@ -1,13 +1,26 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
-#include "sim/collision/placed_mesh.hpp"
+#include "sim/collision/distance.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
+
+/// Moves groups of vertices as rigid bodies for one step, used when impulses cannot resolve a pile of collisions
+/// (Provot 1997; Bridson, Fedkiw and Anderson 2002, section 7.5; Harmon et al. 2008). Groups that share vertices form
+/// one zone. A zone keeps the linear and angular momentum of its vertices: v = v̄ + ω × (x − x̄). On the path x + t·v no
+/// two of its points approach each other, since I + t·[ω]× shortens no vector. So there is no collision inside a zone.
+/// A zone with pins moves with the first of these.
+/// @param all            joins all groups into one zone
+/// @param x              positions of all vertices [m]
+/// @param inverse_masses of all vertices; 0 for a pin [1/kg]
+/// @param velocities     of all vertices; changes those of free vertices in groups [m/s]
+void move_rigidly(const std::vector<std::array<int, 4>>& groups, bool all, const std::vector<Point>& x,
+                  const std::vector<double>& inverse_masses, std::vector<Point>& velocities);
 
 /// Contact for explicit methods, by impulses that change the positions at the end of a step. Contacts and contact law
 /// are those of ContactSolver. A step that would reach y = x + h·v ends at
@@ -20,8 +33,8 @@ namespace drape {
 ///
 /// Restitution follows Newton's law, see Bounce.
 ///
-/// After a few rounds, vertices that still collide move with the obstacle or as a rigid body, see RigidZones. The step
-/// then counts as not converged.
+/// After a few rounds, vertices that still collide move with the obstacle or as a rigid body, see move_rigidly. The
+/// step then counts as not converged.
 class ImpulseContact final : public MotionFilter {
  public:
   /// @param gravity acceleration on the free parabolas before and after a bounce [m/s²]
@@ -58,17 +71,15 @@ class ImpulseContact final : public MotionFilter {
   /// Returns true if the last solve moved vertices too little to cause other contacts.
   [[nodiscard]] bool stays_as_found() const;
   void hold();
-  /// Moves the vertices of a contact with its obstacle. Returns true if any did not already.
-  bool hold_with_obstacle(const ContactConstraint& contact, std::vector<Point>& velocities);
+  /// Moves the vertices of a contact with its obstacle, as pins. Returns true if any did not already.
+  bool hold_with_obstacle(const ContactConstraint& contact, std::vector<double>& inverse_masses,
+                          std::vector<Point>& velocities) const;
 
   std::vector<std::shared_ptr<ContactSource>> sources_;
   std::vector<double> inverse_masses_;  // 0 on pins [1/kg]
   std::vector<char> free_;              // nonzero for vertices that can move
   std::vector<Impulse> impulses_, before_;
   std::vector<ContactConstraint> found_, held_;
-  RigidZones zones_;
-  MovingVertices moving_;
-  std::vector<Point> places_;
   const Vertices* x_ = nullptr;
   FreeFlight flight_;
   Vertices target_, before_target_;

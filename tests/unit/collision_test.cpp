@@ -10,7 +10,7 @@
 
 #include "sim/collision/candidates.hpp"
 #include "sim/collision/distance.hpp"
-#include "sim/collision/placed_mesh.hpp"
+#include "sim/contact/impulse_contact.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
@@ -222,22 +222,18 @@ TEST(CollisionCandidates, ContainEveryPairThatComesNear) {
 TEST(RigidZones, KeepBothMomentaAndBringNoPointsNearer) {
   constexpr int count = 12;
   Random random;
-  MovingVertices moving;
-  std::vector<Point> x;
+  std::vector<Point> x, velocities;
+  std::vector<double> inverse_masses;
   for (int i = 0; i < count; ++i) {
     x.push_back(random_point(random));
-    moving.velocities.push_back(10 * random_point(random));
-    moving.inverse_masses.push_back(1 + random.number());
+    velocities.push_back(10 * random_point(random));
+    inverse_masses.push_back(1 + random.number());
   }
-  const std::vector<Point> before = moving.velocities;
-  RigidZones zones;
-  zones.begin(moving.velocities);
-  zones.join({0, 1, 2, 3});
-  zones.join({3, 4, 5, 6});
-  zones.apply(x, moving);
+  const std::vector<Point> before = velocities;
+  move_rigidly({{0, 1, 2, 3}, {3, 4, 5, 6}}, false, x, inverse_masses, velocities);
   Point p = Point::Zero(), l = p;
   for (std::size_t i = 0; i < count; ++i) {
-    const Point change = (moving.velocities[i] - before[i]) / moving.inverse_masses[i];
+    const Point change = (velocities[i] - before[i]) / inverse_masses[i];
     if (i > 6) {
       EXPECT_EQ(change, Point::Zero());
     }
@@ -248,21 +244,17 @@ TEST(RigidZones, KeepBothMomentaAndBringNoPointsNearer) {
   EXPECT_LT(l.norm(), 1e-12);
   for (std::size_t i = 0; i < 7; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const Point d = x[i] - x[j], way = moving.velocities[i] - moving.velocities[j];
+      const Point d = x[i] - x[j], way = velocities[i] - velocities[j];
       for (const double t : {0.01, 0.1, 1.0}) EXPECT_GE((d + t * way).norm(), d.norm() * (1 - 1e-12));
     }
   }
 }
 
 TEST(RigidZones, MoveWithTheirPin) {
-  MovingVertices moving{.velocities = {Point(1, 0, 0), Point(0, 5, 0), Point(0, 0, 7), Point(3, 3, 3)},
-                        .inverse_masses = {0, 1, 1, 1}};
+  std::vector<Point> velocities{Point(1, 0, 0), Point(0, 5, 0), Point(0, 0, 7), Point(3, 3, 3)};
   const std::vector<Point> x{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1)};
-  RigidZones zones;
-  zones.begin(moving.velocities);
-  zones.join({0, 1, 2, 3});
-  zones.apply(x, moving);
-  for (const Point& v : moving.velocities) EXPECT_EQ(v, Point(1, 0, 0));
+  move_rigidly({{0, 1, 2, 3}}, false, x, {0, 1, 1, 1}, velocities);
+  for (const Point& v : velocities) EXPECT_EQ(v, Point(1, 0, 0));
 }
 
 }  // namespace
