@@ -131,6 +131,7 @@ std::vector<Box> boxes_around(const std::vector<std::array<int, count>>& feature
   return boxes;
 }
 
+/// Checks that all vertices of the triangles exist.
 /// @throws std::invalid_argument if a triangle has an invalid vertex
 void check_vertices(const std::vector<Triangle>& triangles, const Vertices& x);
 

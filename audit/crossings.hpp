@@ -17,7 +17,7 @@ struct Topology {
   std::vector<Edge> sewn = {};  ///< vertices that seams tie together, which count as common vertices; sorted
 };
 
-/// Extracts the edges.
+/// Makes the topology of triangles.
 /// @param sewn see Topology, sorted
 /// @throws std::invalid_argument if a triangle has a negative or a repeated vertex
 Topology make_topology(std::vector<Triangle> triangles, std::vector<Edge> sewn = {});
@@ -59,17 +59,17 @@ std::string describe(const Crossing& crossing);
 
 /// Finds all edges of a mesh that intersect its triangles, sorted.
 ///
-/// An edge intersects a triangle if two conditions hold: its ends lie strictly on both sides of the triangle's plane,
-/// and the triangle or its boundary contains a point of the edge. Signs are exact. An edge that ends exactly in the
-/// plane only touches; find_passages with from = to finds touching features.
+/// An edge intersects a triangle if its ends lie strictly on both sides of the triangle's plane, and the closed
+/// triangle contains a point of the edge. Signs are exact. An edge that ends exactly in the plane only touches;
+/// find_passages with from = to finds touching features.
 ///
-/// Pairs with a common vertex are skipped, which loses no intersection: two triangles with one common vertex meet in
-/// a line from that vertex. It ends at an edge of one of them, in general the one opposite to the vertex.
-/// Two triangles with a common edge meet only there unless they are coplanar.
+/// Pairs with a common vertex are skipped. No intersection is lost: two triangles with one common vertex meet in a line
+/// from that vertex. The line ends at an edge of one triangle, in general the edge opposite to the vertex. Two
+/// triangles with a common edge meet only there unless they are coplanar.
 /// @throws std::invalid_argument if a position is non-finite or a triangle's vertex does not exist
 std::vector<Crossing> find_crossings(const Surface& cloth);
 
-/// Finds all edges of the cloth that intersect triangles of the body, and of the body likewise, sorted.
+/// Finds all edges of the cloth that intersect triangles of the body, and vice versa, sorted.
 std::vector<Crossing> find_crossings(const Surface& cloth, const Surface& body);
 
 /// Sorts like find_crossings: by owners, edge and triangle.

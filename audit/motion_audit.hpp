@@ -44,7 +44,7 @@ std::string describe(const StretchedEdge& stretched);
 std::vector<StretchedEdge> find_stretched(const std::vector<Edge>& edges, const Vertices& rest, const Vertices& x,
                                           double limit);
 
-/// Vertices that may rest: known ones, or all that do not move before others do.
+/// Vertices that may rest: a known set, or all that have not moved yet.
 struct Held {
   bool known = false;         ///< false: vertices that have not moved since the first state are held
   std::vector<int> vertices;  ///< known held vertices, such as pins
@@ -61,10 +61,11 @@ class StuckWatch {
  public:
   /// @param cloth must outlive this
   /// @param rest  rest positions, for the mean edge length [m]
-  /// @param down  unit vector along which things fall; zero: nothing falls
+  /// @param down  unit direction of gravity; zero: nothing falls
   StuckWatch(const Topology& cloth, const Vertices& rest, const Held& held, Eigen::Vector3d down);
 
-  /// Processes the next state. @returns the stuck vertices, ascending
+  /// Processes the next state.
+  /// @returns the stuck vertices, ascending
   std::vector<int> add(const Vertices& x, const std::vector<Collider>& colliders);
 
  private:
@@ -128,7 +129,7 @@ struct WorstState {
 /// Findings of a check in all states.
 struct CheckFindings {
   std::int64_t states = 0;  ///< number of states with findings
-  std::int64_t first = 0;   ///< step of the first of them
+  std::int64_t first = 0;   ///< step of the first state with findings
   double first_time = 0;    ///< [s]
   std::size_t touches = 0;  ///< for ways: meetings that start or end in a touch, which are no findings
   double largest = 0;       ///< greatest depth [m] or stretch of all states, including those below the limit

@@ -18,25 +18,29 @@ struct Way {
 /// A moment at which two moving features have a common point.
 struct Meeting {
   double time = 0;     ///< in [0, 1]
-  bool touch = false;  ///< no proven crossing: the features touch, or come within 2⁻⁸⁰ of a step of touching
+  bool touch = false;  ///< no proven crossing: the features touch, or 80 bisections of the step do not decide
 };
 
-/// Decides exactly if a vertex and a triangle with its boundary have a common point at some t in [0, 1].
+/// Tests exactly if a vertex and a closed triangle meet at some t in [0, 1] (continuous collision detection).
 ///
-/// No meeting is missed: "no" is a proof. Every meeting without `touch` is proven as well; `touch` cases have measure
-/// zero. Coordinates as in `exact_range`.
+/// An empty result proves that they do not meet. A result without `touch` is a proven crossing. Results with `touch`
+/// have measure zero. Coordinates as in `exact_range`.
 ///
 /// Method: let a, b, c point from the vertex to the corners. Then volume(t) = det(a, b, c) is a cubic, and the areas
-/// a×b, b×c, c×a are quadratic. The step is bisected; on each part, the signs of Bernstein coefficients decide.
-/// A part is empty in three cases: the volume has one sign; a coordinate of a, b and c has one sign; a coordinate of
-/// two areas has opposite signs. It contains a meeting if the volume changes its sign and a coordinate of all three
-/// areas has the same sign. Doubles with a forward error bound come first, then expansions.
+/// a×b, b×c, c×a are quadratic. The step is bisected; on each part, the signs of Bernstein coefficients decide. A part
+/// has no meeting in three cases:
+/// - the volume has one sign;
+/// - a coordinate has the same sign in a, b and c;
+/// - a coordinate has opposite signs in two areas.
+///
+/// A part has a meeting if the volume changes its sign and a coordinate has the same sign in all three areas. Signs are
+/// computed in doubles with a forward error bound, and in floating-point expansions where that fails.
 std::optional<Meeting> vertex_meets_triangle(const Way& vertex, const std::array<Way, 3>& triangle);
 
-/// Decides exactly if two edges with their ends have a common point at some t in [0, 1].
+/// Tests exactly if two closed edges meet at some t in [0, 1].
 ///
-/// Like `vertex_meets_triangle`, with the four differences of the edges' ends and the areas spanned by an edge and an
-/// end of the other.
+/// The method is that of `vertex_meets_triangle`, with the four vectors between the edges' ends. An edge and an end of
+/// the other span each area.
 std::optional<Meeting> edges_meet(const std::array<Way, 2>& first, const std::array<Way, 2>& second);
 
 /// Two features that meet while all vertices move on straight lines in a step.
@@ -54,12 +58,12 @@ struct Passage {
 /// Returns for example "cloth vertex 3 meets body triangle 7 8 9 at 0.25 of the step".
 std::string describe(const Passage& passage);
 
-/// Finds all pairs of a vertex and a triangle, and of two edges, of one mesh that meet in a step; sorted by kind and
-/// vertices.
+/// Finds all vertex–triangle and edge–edge pairs of one mesh that meet in a step, sorted by kind and vertices.
 ///
-/// Decisions are exact, see meeting.hpp: no pair is missed, including pairs that meet twice or only within the step.
-/// Touching counts as meeting. Pairs with a common vertex are skipped. Two adjacent triangles (a, b, c) and (b, a, d)
-/// that fold onto each other are still found: vertex d goes through the triangle (a, b, c), or edge a–d through b–c.
+/// Decisions are exact, see vertex_meets_triangle(): no pair is missed, including pairs that meet twice or only within
+/// the step. Touching counts as meeting. Pairs with a common vertex are skipped. Two adjacent triangles (a, b, c) and
+/// (b, a, d) that fold onto each other are still found. Vertex d goes through the triangle (a, b, c), or edge a–d
+/// through b–c.
 /// @throws std::invalid_argument if a position is non-finite, a triangle's vertex does not exist or from and to differ
 /// in size
 std::vector<Passage> find_passages(const SurfaceMotion& cloth);

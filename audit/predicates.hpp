@@ -39,7 +39,7 @@ constexpr double grid = 0x1p-200;    ///< [m]; a product of three coordinates ha
 constexpr double largest = 0x1p100;  ///< [m]
 }  // namespace exact_range
 
-/// Rounds a coordinate to the nearest one with exact predicates; coordinates of 2⁻¹⁴⁸ m and more do not change.
+/// Rounds a coordinate to the nearest multiple of `exact_range::grid`; coordinates of 2⁻¹⁴⁸ m and more do not change.
 /// @throws std::invalid_argument unless the coordinate is finite and below `exact_range::largest`
 double on_exact_grid(double coordinate);
 

@@ -86,9 +86,9 @@ SceneResult unjudged_scene(const LoadedScene& scene, const std::string& name, co
 /// @throws DivergedError
 std::optional<GoldenTime> measure_step_time(const Scene& scene, std::int64_t steps, const std::stop_token& stop);
 
-/// Compares a scene's time with its golden one. Repeats the measurement several times if the limit is exceeded, so that
-/// a busy machine does not fail a check.
-/// @param limit largest accepted ratio of the two
+/// Compares a scene's computing time with the golden's. Repeats the measurement several times if the limit is exceeded,
+/// so that a busy machine does not fail a check.
+/// @param limit largest accepted ratio of the two times
 /// @returns nothing if within the limit or stopped
 /// @throws DivergedError
 std::optional<SlowSteps> time_mismatch(const Scene& scene, const GoldenTime& golden, double limit,

@@ -45,7 +45,7 @@ struct GoldenFrame {
   std::string pixels = {};  ///< hash of the picture, see pixel_hash(); set when it is written
 };
 
-/// Settings of the film that the compared pictures, with a size of their own, do not show.
+/// Film settings that the compared pictures do not show, as they have their own size.
 struct GoldenFilm {
   double fps = 25;
   double speed = 1;            ///< seconds of the scene per second of the film
@@ -111,16 +111,16 @@ std::string pixel_hash(const Image& picture);
 /// Returns the first steps of a motion's windows, and its last step.
 std::vector<std::int64_t> window_starts(std::int64_t step_count, std::int64_t window_steps);
 
-/// Returns the wanted frames of a golden; empty: all.
+/// Returns the `wanted` frames of a golden; empty: all.
 /// @param folder of the golden, for the message
 /// @throws UsageError if it has no such frame
 std::vector<GoldenFrame> chosen_frames(const Golden& golden, const std::vector<int>& wanted,
                                        const std::filesystem::path& folder);
 
-/// Returns the folder of a scene's golden, beside it: scenes/5.golden for scenes/5.toml.
+/// Returns the folder of a scene's golden, beside the scene: scenes/5.golden for scenes/5.toml.
 std::filesystem::path golden_folder(const std::filesystem::path& scene_file);
 
-/// Returns the golden picture of a frame in such a folder: frames/0040.png.
+/// Returns the path of a frame's picture in a golden's folder: frames/0040.png.
 std::filesystem::path golden_picture(const std::filesystem::path& folder, int frame);
 
 /// Reads manifest.json and motion.bin, and validates them completely: the result is finite, complete, and unmodified
@@ -129,11 +129,12 @@ std::filesystem::path golden_picture(const std::filesystem::path& folder, int fr
 Golden read_golden(const std::filesystem::path& folder);
 
 /// Reads a golden's file.
-/// @param most size limit of such a file [bytes]
+/// @param most size limit [bytes]
 /// @throws UsageError naming the file if it is missing, irregular, too large or unreadable
 std::string read_golden_file(const std::filesystem::path& file, std::uintmax_t most);
 
-/// Throws an error with the file, its problem and a remedy. @throws UsageError
+/// Throws an error with the file, its problem and a remedy.
+/// @throws UsageError
 [[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& problem);
 
 /// Returns true if a folder has a golden, even a damaged one; false if the folder is missing or empty.
@@ -145,7 +146,8 @@ bool has_golden(const std::filesystem::path& folder);
 /// @throws UsageError as has_golden(), and if the folder is a link or holds other files
 void require_only_golden(const std::filesystem::path& folder);
 
-/// Removes such a folder. @throws UsageError likewise
+/// Removes a golden's folder.
+/// @throws UsageError as require_only_golden()
 void remove_golden(const std::filesystem::path& folder);
 
 /// Writes a whole golden and replaces an older one atomically. Keeps foreign files and folders in it, and permissions.

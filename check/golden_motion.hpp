@@ -17,25 +17,24 @@ namespace drape {
 
 using Words = std::vector<std::uint64_t>;
 
-/// Serialises words: the most significant bytes of all words first, then the next ones, compressed by zlib. A line with
-/// the unpacked size comes first.
+/// Serialises words as byte planes, most significant plane first, compressed by zlib. A line with the unpacked size
+/// precedes them.
 std::string pack_words(const Words& words);
 
-/// Reads these bytes.
+/// Reads words written by pack_words().
 /// @param most largest number of words; larger data are rejected before decompression
-/// @throws std::invalid_argument that describes the error in the bytes
+/// @throws std::invalid_argument if the bytes are invalid
 Words unpack_words(std::string_view bytes, std::uint64_t most);
 
 /// Serialises the windows of a golden motion and the positions of its pictures as motion.bin, without loss. A row of a
-/// vector field is stored in multiples of the field's quantum, or as raw bits if it is not a multiple. Both are stored
-/// as differences from a prediction by neighbouring vertices. Body positions are stored as second differences, those
-/// that are not 0. All become 64-bit words, arranged by byte significance (so that similar bytes are adjacent), and
-/// compressed by zlib.
+/// vector field is stored in multiples of the field's quantum, or as raw bits if it is not a multiple. Rows are stored
+/// as differences from a prediction by neighbouring vertices. Body positions are stored as their nonzero second
+/// differences. All become 64-bit words, see pack_words().
 std::string pack_motion(const Golden& golden);
 
-/// Reads motion.bin: fills in the windows of a golden and the positions of its frames; all else must be known. Every
-/// number read is finite. The size is limited to that of such a golden.
-/// @throws std::invalid_argument that describes the error in the bytes
+/// Reads motion.bin into the windows and frame positions of a golden whose other members are known. Every number read
+/// is finite. The other members limit the size.
+/// @throws std::invalid_argument if the bytes are invalid
 void unpack_motion(std::string_view bytes, Golden& golden);
 
 /// Returns the largest size of a golden's motion [bytes].
@@ -48,10 +47,11 @@ struct RecordPlan {
   RoundingUnits quanta;
 };
 
-/// Plans the recording by the scene's [check] table. Without frames in it, runs the motion and chooses significant
-/// frames.
+/// Plans the recording by the scene's [check] table. If the table has no frames, runs the motion and chooses
+/// significant ones.
 /// @param recorded the motion to read; null: the scene is simulated
-/// @throws UsageError if the film has no such frame; DivergedError
+/// @throws UsageError if the film has no such frame
+/// @throws DivergedError
 /// @returns nothing if stopped
 std::optional<RecordPlan> plan_recording(const LoadedScene& scene, const CheckSettings& settings,
                                          const std::stop_token& stop, Progress& progress,
@@ -66,7 +66,7 @@ RecordPlan plan_of(const Golden& golden);
 std::optional<Golden> record_motion(const LoadedScene& scene, const CheckSettings& settings, const RecordPlan& plan,
                                     const std::stop_token& stop, Progress& progress, PlayedMotion* recorded = nullptr);
 
-/// Returns the film settings of a scene that its golden keeps.
+/// Returns the film settings to store in a scene's golden.
 GoldenFilm film_of(const Scene& scene);
 
 /// Returns the size of a scene's golden pictures [pixels].

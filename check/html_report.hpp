@@ -50,7 +50,8 @@ html::Markup scene_content(const SceneResult& scene, const std::string& id);
 /// has its compared pictures, curves, and the commands to rerun and bless it.
 std::string html_report(const CheckReport& report);
 
-/// Writes html_report() to a file. @throws OutputError if it cannot be written
+/// Writes html_report() to a file.
+/// @throws OutputError if the file cannot be written
 void write_html_report(const CheckReport& report, const std::filesystem::path& file);
 
 }  // namespace drape

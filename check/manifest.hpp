@@ -17,7 +17,7 @@ namespace drape {
 using Json = nlohmann::ordered_json;
 
 /// Parses JSON with limited nesting, since the library takes a stack frame per level.
-/// @throws std::invalid_argument that describes the error in the bytes
+/// @throws std::invalid_argument if the bytes are invalid
 Json parse_json(std::string_view bytes);
 
 /// Typed access to the members of a JSON object; a missing member or wrong type is an error. Refers to the object.
@@ -102,7 +102,7 @@ std::string manifest_text(const Golden& golden, const std::string& motion_hash);
 
 /// Parses a manifest. A checksum detects modified text; every value must be present, with its type and a sensible
 /// range.
-/// @throws std::invalid_argument that describes the error in the bytes
+/// @throws std::invalid_argument if the bytes are invalid
 Manifest read_manifest(std::string_view bytes);
 
 /// Adds a valid checksum to a manifest with any values.

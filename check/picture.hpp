@@ -37,7 +37,7 @@ double amplification(const PictureDifference& difference);
 
 /// Decodes a PNG file without transparency.
 /// @param size expected size [pixels]; larger pictures are rejected before decompression
-/// @throws std::invalid_argument that describes the error in the bytes
+/// @throws std::invalid_argument if the bytes are invalid
 Image decode_png(std::string_view bytes, const Eigen::Vector2i& size);
 
 /// Returns the largest size of a PNG file of this picture size [bytes].

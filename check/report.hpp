@@ -50,7 +50,7 @@ enum class FindingKind {
   whole_motion,  ///< SceneResult::end_to_end
   whole_pictures,
   same_motion,   ///< only the pictures changed
-  same_windows,  ///< neither changed
+  same_windows,  ///< the motion and the pictures did not change
   elsewhere,     ///< SceneResult::recorded_on
   scene_changed,
   overrides,    ///< the text is the options
@@ -128,11 +128,11 @@ struct Deviation {
 /// A change of a window other than positions beyond the tolerance.
 enum class WindowFault { diverged, other_bodies, moved_body, velocity, energies };
 
-/// Such a change, and the values that show it.
+/// A fault of a window, and the values that show it.
 struct WindowProblem {
   WindowFault fault = WindowFault::diverged;
   std::int64_t step = 0;
-  int vertex = 0;                 ///< of a velocity
+  int vertex = 0;                 ///< vertex whose velocity changed
   std::string of;                 ///< the moved body, or the message of a divergence
   double actual = 0, golden = 0;  ///< distance of a body [m], speed of a velocity's change [m/s], total energies [J]
 };
@@ -222,7 +222,7 @@ struct CheckReport {
   [[nodiscard]] bool passed() const;
 };
 
-/// Returns the command line as typed, or of a merged report one for the whole check.
+/// Returns the command line as typed; for a merged report, one for the whole check.
 inline std::string full_command(const CheckReport& report) {
   return report.typed_command.empty() ? report.command + report.run_options : report.typed_command;
 }

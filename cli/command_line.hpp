@@ -22,7 +22,7 @@ struct CommonOptions {
 /// The work of a subcommand, executed after parsing of the whole command line.
 using Command = std::function<ExitCode()>;
 
-/// Adds the run commands render and simulate. The chosen one sets `command`.
+/// Adds the run commands render and simulate. Parsing one of them sets `command`.
 void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command);
 
 /// Adds new, which writes a first scene, and lint, which warns about probable mistakes in scenes.
@@ -35,7 +35,8 @@ void add_watch_command(CLI::App& app, const CommonOptions& common, Command& comm
 /// Adds compare, which draws motions side by side.
 void add_compare_command(CLI::App& app, const CommonOptions& common, Command& command);
 
-/// Adds check, accept and bless.
+/// Adds check, which compares scenes with goldens; accept, which makes a check's candidates golden; and bless, which
+/// records goldens.
 void add_check_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_accept_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command);
@@ -50,7 +51,7 @@ void add_audit_command(CLI::App& app, const CommonOptions& common, Command& comm
 void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_merge_command(CLI::App& app, const CommonOptions& common, Command& command);
 
-/// Adds study with its subcommands.
+/// Adds study, whose subcommands measure accuracy, cost and stability.
 void add_study_command(CLI::App& app, const CommonOptions& common, Command& command);
 
 /// Adds validate, which evaluates results for problems with known solutions.
@@ -71,7 +72,7 @@ void add_complete_command(CLI::App& app, Command& command);
 /// Adds --backend, shared by all subcommands that draw.
 void add_backend_option(CLI::App& subcommand, GlBackend& backend);
 
-/// Does work and returns its exit code. Errors go to standard error and determine the exit code.
+/// Runs `work` and returns its exit code. Exceptions are printed to standard error and mapped to an exit code.
 ExitCode reported(const std::function<ExitCode()>& work);
 
 /// Applies drape's environment variable DRAPE_ISA: the highest instruction set for the hot loops.

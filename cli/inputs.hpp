@@ -69,7 +69,7 @@ std::vector<SceneToRun> open_scenes(const std::vector<std::string>& files, const
 /// Warns about film frames between stored states of the motion.
 void warn_of_gaps(const std::string& file, const MotionReader& motion, const FilmExtent& extent);
 
-/// Returns the name of a motion from its own name or that of its growing file.
+/// Returns the name of a motion from this name or the name of its growing file.
 /// @throws UsageError for other names
 std::string motion_to_resume(std::string file);
 
@@ -80,10 +80,11 @@ struct ResumableRun {
   LoadedScene drawn;  ///< scene for drawing the complete motion
 };
 
+/// Finds the run that wrote an incomplete motion.
 /// @param file the motion to resume
 /// @param overrides, look as in open_motion(), for drawing
 /// @returns nothing if the motion is complete
-/// @throws UsageError if it cannot be resumed
+/// @throws UsageError if the motion cannot be resumed
 std::optional<ResumableRun> find_resumable_run(const std::string& file, const std::vector<std::string>& overrides,
                                                const std::string& look);
 
@@ -92,6 +93,7 @@ std::optional<ResumableRun> find_resumable_run(const std::string& file, const st
 /// @throws UsageError for other texts
 RecordedSteps parse_every(const std::string& text, double step);
 
+/// Checks that a motion has the requested steps.
 /// @throws UsageError if more steps are requested than the motion has
 void require_steps(const std::string& file, std::int64_t last_step, const std::optional<std::int64_t>& steps);
 

@@ -38,7 +38,7 @@ inline constexpr const char* sheet_help =
     "COLUMNSxROWS: a .png without {frame} shows so many moments of the film, evenly spread, instead of the last";
 
 /// Parses the value of --sheet; nothing if it is empty.
-/// @throws UsageError if it is not a grid, or no output becomes a sheet
+/// @throws UsageError if the text is not a grid, or no output is a .png without {frame}
 std::optional<SheetGrid> parse_sheet(const std::string& text, const std::vector<std::string>& outputs);
 
 /// Accepts a text without line feeds and other control characters: a name for scripts and messages.
@@ -70,7 +70,7 @@ struct FilmTimes {
 /// @throws UsageError if the text is not a time
 double parse_time(const std::string& option, const std::string& text);
 
-/// Returns true for a time rather than a number: the text ends in "s".
+/// Returns true if the text is a time: it ends in "s" and is not "frames".
 inline bool is_time(const std::string& text) { return text.ends_with('s') && text != "frames"; }
 
 /// Returns a time as a number of steps of h seconds.
@@ -96,9 +96,9 @@ struct RunArguments {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
   std::vector<std::string> outputs;
-  std::string look;  ///< a scene that defines how motions are drawn
-  std::string frames, every, resume, max_size, keep, sheet;
-  FilmTimes times;  ///< selection of frames, in seconds
+  std::string look;                                          ///< a scene that defines how motions are drawn
+  std::string frames, every, resume, max_size, keep, sheet;  ///< values of the options of these names
+  FilmTimes times;                                           ///< selection of frames, in seconds
   bool poster = false;
   std::string start;  ///< first frame of looping films: first or poster
   bool open = false;  ///< open the first film after completion
@@ -111,21 +111,22 @@ struct RunArguments {
   bool drawing = true;  ///< true for render; simulate draws nothing
 };
 
-/// Adds the options of both commands.
+/// Adds the options shared by render and simulate.
 /// @param scenes name of the scene argument in the help
 void add_shared_options(CLI::App& command, RunArguments& arguments, const char* scenes);
 
 /// Adds --max-size and --keep.
 void add_file_limit(CLI::App& command, std::string& max_size, std::string& keep);
 
-/// Parses both; nothing if they are not given.
+/// Parses --max-size and --keep. Returns nothing if they are not given.
 /// @param outputs at least one has to be a film
 /// @throws UsageError
 std::optional<FileLimit> parse_file_limit(const std::string& max_size, const std::string& keep,
                                           const std::vector<std::string>& outputs);
 
-/// @throws UsageError if no output is a film
+/// Checks that at least one output is a film.
 /// @param option name of the option that needs a film
+/// @throws UsageError if no output is a film
 void require_a_film(const std::string& option, const std::vector<std::string>& outputs);
 
 /// Adds -o.

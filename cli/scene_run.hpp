@@ -17,8 +17,8 @@
 
 namespace drape {
 
-/// Observer of the separation of a cloth that begins inside or across an obstacle, if the effect allows such a start.
-/// It tests the cloth after every step until no overlap is left. It does not change the motion.
+/// Observer that finds when a cloth has left the obstacles that it begins inside or across, see `allow_overlap`. It
+/// tests the cloth after every step until no overlap is left. It does not change the motion.
 class Separation final : public StepObserver {
  public:
   /// Forwards all calls to another observer.

@@ -42,7 +42,7 @@ ExitCode conclude_study(const StudyReport& report, const StudyFiles& files, cons
 ExitCode merge_stability_study(const std::vector<std::filesystem::path>& parts, const StudyFiles& to,
                                const CommonOptions& common);
 
-/// Merges the shards of a validation study likewise; also writes its runs.
+/// Merges the shards of a validation study into a report; also writes its runs.
 ExitCode merge_validation_study(const std::vector<std::filesystem::path>& parts, const StudyFiles& to,
                                 const CommonOptions& common);
 

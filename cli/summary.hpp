@@ -19,7 +19,7 @@ namespace drape {
 /// Observer that prints every step's energies and iterations to standard output, then waits for a line of input.
 class StepByStep final : public StepObserver {
  public:
-  /// @param stop stop source; q requests a stop, and a stop from elsewhere ends the waiting
+  /// @param stop stop source of the run; input q requests a stop, and a stop requested elsewhere ends the wait
   explicit StepByStep(std::stop_source stop) : stop_(std::move(stop)) {}
 
   void begin(const Simulation& simulation) override;
@@ -38,7 +38,7 @@ std::string describe(const LoadedScene& scene, const RunOptions& options);
 /// Describes the share of each effect in the steps' time, in one line.
 std::string effect_shares(const Statistics& statistics);
 
-/// Describes how far an interrupted run came and its partial files: "after 36 of 417 steps; out/5.gif has …".
+/// Describes the progress of an interrupted run and its partial files: "after 36 of 417 steps; out/5.gif has …".
 /// @param resume command that resumes its motion file, if there is one
 std::string describe_end(const RunResult& result, const std::string& resume = {});
 
@@ -51,13 +51,14 @@ std::string describe_files(const std::vector<std::vector<OutputFile>>& outputs);
 /// Summarises a run in a few lines without a final line end.
 std::string summarize(const RunResult& result);
 
-/// Files of a check's report. No scene folder beside them may have such a name.
+/// Files of a check's report. No scene folder beside them may have one of these names.
 inline constexpr std::array<const char*, 3> check_report_files{"report.html", "report.json", "junit.xml"};
 
 /// Printer of results that records write errors.
 class ResultPrinter {
  public:
-  /// Prints a line. @param line escaped, see escape_controls()
+  /// Prints a line.
+  /// @param line escaped, see escape_controls()
   void print(const std::string& line);
 
   /// Returns the first write error; empty without errors.

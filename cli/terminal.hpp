@@ -74,7 +74,7 @@ class ProgressDisplay {
 /// signal ends the process. The first call installs the handlers.
 std::stop_source& interruption();
 
-/// Work on its own thread; the calling thread shows its progress. The token is that of interruption().
+/// Work on its own thread, with the stop token of interruption(). The calling thread shows its progress.
 class BackgroundWork {
  public:
   using Work = std::function<void(const std::stop_token&, Progress&)>;
@@ -92,7 +92,7 @@ class BackgroundWork {
   std::future<void> done_;  // last member: its destructor waits, and the others are still needed
 };
 
-/// Runs work on its own thread and shows its progress. The token is that of interruption().
+/// Runs work on its own thread, with the stop token of interruption(), and shows its progress.
 /// @param quiet show no progress
 /// @returns true if interrupted
 /// @throws errors of the work

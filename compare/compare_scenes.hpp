@@ -54,14 +54,14 @@ struct CompareOptions {
   std::vector<std::string> outputs;  ///< films, pictures and sheets as for a run; .html: a page
   int columns = 0, rows = 0;         ///< size of the grid of panels; 0: automatic
   bool difference = false;           ///< colour each cloth by its distance to the first
-  std::optional<double> limit = {};  ///< distance of the last colour [m]; absent: automatic
+  std::optional<double> limit = {};  ///< distance at the end of the colour scale [m]; absent: automatic
   std::optional<SheetGrid> sheet;    ///< frames in a .png whose path lacks {frame}; absent: the last
   std::optional<std::int64_t> steps;
   std::optional<FrameRange> frames;
   std::optional<FileLimit> largest_file;  ///< size limit of a film, see SizeLimitedEncoder
   GlBackend backend = GlBackend::automatic;
   std::string command;                      ///< the user's command, for the page
-  FigureStyle style = FigureStyle::screen;  ///< of the page's diagrams as files
+  FigureStyle style = FigureStyle::screen;  ///< style of the page's diagram files
 };
 
 /// The result for one of the motions.
@@ -87,7 +87,7 @@ struct CompareResult {
   std::string missing;                           ///< a sentence on missing diagrams of the page; empty: none missing
 };
 
-/// Returns the times of the i-th motion in a comparison: those of the first scene's film.
+/// Returns the frame times of the i-th motion in a comparison, which are those of the first scene's film.
 /// @throws UsageError as FilmExtent
 FilmExtent compared_extent(const std::vector<LoadedScene>& scenes, const CompareOptions& options, std::size_t i);
 
@@ -125,9 +125,9 @@ class SynchronisedMotions {
   /// Returns the i-th motion, as far as it was played.
   [[nodiscard]] const FrameSource& motion(std::size_t i) const { return sources_[i]; }
 
-  /// Returns the first scene's camera for `count` frames, with all motions in view. A direction that the scene leaves
-  /// open is that of its own film.
-  /// @returns nothing if stopped before that is known
+  /// Returns the first scene's camera for `count` frames, with all motions in view. Angles that the scene omits are
+  /// those of its own film.
+  /// @returns nothing if stopped
   std::optional<CameraPath> camera_path(int count, const std::stop_token& stop);
 
  private:

@@ -12,21 +12,21 @@
 
 namespace drape {
 
-/// Vertex colours in all panels of a comparison, on a common scale. They show the distance to the first scene's
-/// vertices, or the quantity in the first scene's look; without either there are none.
+/// Vertex colours in all panels of a comparison, on a common scale. They show distances to the first scene's vertices,
+/// or the first scene's Look::color_by. Otherwise there are none.
 ///
-/// Distances have a logarithmic scale of three decades, so that small ones show beside large ones. It ends at a limit:
-/// the smallest of 1, 2 or 5 times a power of ten that 95 % of the cloth stays below in 90 % of the frames.
+/// Distances have a logarithmic scale of three decades, so that small ones are visible. The scale ends at the smallest
+/// 1, 2 or 5 times 10ⁿ that exceeds 95 % of the cloth's distances in 90 % of the frames.
 class PanelColors {
  public:
   /// @param difference true to show distances
-  /// @param limit      distance of the last colour [m]; absent: automatic
+  /// @param limit      distance at the end of the scale [m]; absent: automatic
   PanelColors(const std::vector<LoadedScene>& scenes, const std::vector<std::string>& labels, bool difference,
               std::optional<double> limit);
 
   [[nodiscard]] bool wanted() const { return scale_.has_value(); }
   [[nodiscard]] bool needs_motion() const { return scale_ && scale_->needs_motion(); }
-  /// Adds the next frame of all motions to the survey.
+  /// Adds the next frame of all motions to the data that set the scale's limit.
   void survey(const std::vector<const Frame*>& frames);
   /// Returns the colours of a panel's vertices; empty: the scene's own look.
   [[nodiscard]] std::vector<Rgb> colors(const std::vector<const Frame*>& frames, std::size_t panel) const;

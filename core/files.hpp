@@ -37,23 +37,26 @@ class PartialFile {
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
   /// Returns the absolute temporary path, with the final extension, for libraries that open files by name. They must
-  /// not delete it.
+  /// not delete the file.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
-  /// Appends bytes. @throws OutputError with the system's reason
+  /// Appends bytes.
+  /// @throws OutputError with the system's reason
   void write(std::string_view bytes);
 
-  /// Overwrites existing bytes. @throws OutputError with the system's reason
+  /// Overwrites existing bytes.
+  /// @throws OutputError with the system's reason
   void overwrite(std::uint64_t offset, std::string_view bytes);
 
-  /// Replaces the content by another file of the same folder, which moves here. @throws OutputError
+  /// Replaces the content by another file of the same folder, which moves here.
+  /// @throws OutputError
   void adopt(const std::filesystem::path& other);
 
   /// Checks that a further MiB can be written, for libraries that fail without a reason. Destroys the content.
   /// @throws OutputError
   void require_space();
 
-  /// Flushes the bytes to disk and renames the file: to file(), or to partial_name() of it if it ended early.
+  /// Flushes the bytes to disk and renames the file to file(), or to its partial_name() if it ended early.
   /// @returns its size [bytes]
   /// @throws OutputError
   std::uintmax_t commit(Ending ending = Ending::complete);
@@ -69,7 +72,8 @@ class PartialFile {
   int descriptor_ = -1;
 };
 
-/// Writes all bytes to an open file. @returns 0 or the error number
+/// Writes all bytes to an open file.
+/// @returns 0 or the error number
 int write_all(int descriptor, std::string_view bytes);
 
 /// Makes new names in a folder survive a power cut; does nothing on file systems that cannot.
@@ -79,19 +83,21 @@ void sync_folder(const std::filesystem::path& folder);
 /// @throws OutputError as PartialFile
 void require_writable(const std::filesystem::path& file);
 
-/// Writes a whole file, or changes nothing. @returns its size [bytes] @throws OutputError as PartialFile
+/// Writes a whole file, or changes nothing.
+/// @returns its size [bytes]
+/// @throws OutputError as PartialFile
 std::uintmax_t write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
 
 /// Reads all bytes of a file or, up to the limit, of a pipe. Refuses devices, which may never end.
 /// @param limit greatest size [bytes]
-/// @throws UsageError "file: message" if it is not there, a folder or device, longer, or cannot be read
+/// @throws UsageError "file: message" if the file is missing, a folder or device, too long, or unreadable
 std::string read_file(const std::filesystem::path& file, std::size_t limit);
 
 /// Reads a text in UTF-8, without the byte-order mark that some editors write.
 /// @throws UsageError also for UTF-16, recognised by its byte-order mark, and for binary files, by a zero byte
 std::string read_text(const std::filesystem::path& file, std::size_t limit);
 
-/// Checks and returns the text in bytes that were read from a file, as read_text().
+/// Checks bytes that were read from a file and returns their text, like read_text().
 std::string text_of(const std::filesystem::path& file, std::string text);
 
 /// A file that is read a piece at a time.
@@ -107,7 +113,7 @@ class FilePieces {
   static bool possible(const std::filesystem::path& file);
 
   /// Reads up to `most` bytes from an offset into `bytes`, fewer only at the end of the file.
-  /// @throws UsageError if they cannot be read
+  /// @throws UsageError if the bytes cannot be read
   void read(std::size_t offset, std::size_t most, std::string& bytes) const;
 
  private:
@@ -115,7 +121,7 @@ class FilePieces {
   int descriptor_;
 };
 
-/// Follows a chain of symbolic links to its end and returns that absolute path, which need not exist.
+/// Returns the absolute path at the end of a chain of symbolic links, which need not exist.
 /// @throws std::filesystem::filesystem_error if the chain has no end or cannot be followed
 std::filesystem::path link_target(const std::filesystem::path& file);
 
@@ -157,7 +163,8 @@ class Spool {
   /// @throws OutputError
   explicit Spool(std::string kept);
 
-  /// Appends bytes. @throws OutputError with the system's reason, such as a full disk
+  /// Appends bytes.
+  /// @throws OutputError with the system's reason, such as a full disk
   void append(std::string_view bytes);
 
   [[nodiscard]] std::uint64_t size() const { return size_; }

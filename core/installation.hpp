@@ -10,7 +10,7 @@ namespace drape {
 
 /// Origin of this binary.
 struct BuildInfo {
-  std::string version;  ///< "0.2.0", or "0.2.0+15.g3f2a": 15 commits after it
+  std::string version;  ///< "0.2.0", or "0.2.0+15.g3f2a": 15 commits after 0.2.0
   std::string revision;  ///< Git revision: "3f2a…", with "-dirty" if files were changed; "unknown" outside a repository
   std::string date;      ///< date of the revision, "2026-11-22"; empty outside a repository
   std::string compiler;  ///< "GCC 12.2.0"
@@ -24,7 +24,7 @@ const BuildInfo& build_info();
 /// then those above the library or Python module that holds this code. An installation may be moved as a whole.
 std::vector<std::filesystem::path> installation_roots();
 
-/// Returns the configured installation prefix, for programs of others that use this library.
+/// Returns the configured installation prefix, for third-party programs that use this library.
 std::filesystem::path configured_prefix();
 
 /// Returns the program's own file, even if the portable archive's loader runs it.
@@ -40,25 +40,26 @@ std::filesystem::path portable_root();
 /// unset environment variables, so call it before the first thread starts. Does nothing outside an archive.
 void use_portable_data();
 
-/// Returns the environment for programs outside this installation: all but the variables of `use_portable_data`.
+/// Returns the environment for external programs, without the variables set by use_portable_data().
 std::vector<std::string> environment_for_others();
 
 /// Returns a hash of the running program, computed once.
 /// @throws UsageError if its file cannot be read
 const std::string& program_hash();
 
-/// Greatest length of such a name [bytes]: longer names of hidden and temporary files still fit into a folder's 255.
+/// Maximum length of a name for name_in_folder() [bytes]. It leaves room within 255 bytes for additions to hidden and
+/// temporary names.
 inline constexpr std::size_t longest_name = 200;
 
-/// Validates a name read from a file, which may be untrusted, as the name of a file or folder in one folder.
-/// A valid name has 1 to `longest_name` bytes, no separator, no control character and no leading dot.
-/// @param file that holds the name, for the message
-/// @param key  of the name in that file
+/// Validates an untrusted name as a single path component. A valid name has 1 to `longest_name` bytes, no separator, no
+/// control character and no leading dot.
+/// @param file file that contains the name, for messages
+/// @param key  key of the name in the file
 /// @returns the name
 /// @throws UsageError "file: key: …" for any other name
 std::string name_in_folder(std::string_view name, const std::filesystem::path& file, std::string_view key);
 
-/// Turns a text into such a name: replaces forbidden bytes and cuts the end of a long text.
+/// Turns text into a valid path component: replaces forbidden bytes and truncates long text.
 /// @param longest greatest length of the name [bytes]
 std::string as_name_in_folder(std::string_view text, std::size_t longest = longest_name);
 
@@ -67,7 +68,7 @@ std::string as_name_in_folder(std::string_view text, std::size_t longest = longe
 void require_inside(const std::filesystem::path& place, const std::filesystem::path& folder);
 
 /// Checks all links in a folder and its subfolders. The folder itself may be a link, or not exist.
-/// @throws UsageError if one leads out of the folder or is broken
+/// @throws UsageError if a link leads out of the folder or is broken
 void require_links_inside(const std::filesystem::path& folder);
 
 /// A shared library that is loaded at run time, because linking it would slow every start of the program. It stays

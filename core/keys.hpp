@@ -106,7 +106,7 @@ class Keys {
     return add(std::move(name), std::move(choice), "", std::move(help));
   }
 
-  /// Adds such a choice whose default is open.
+  /// Adds a choice whose default is open.
   template <class Enum>
   Key& choice(std::string name, std::optional<Enum>& target, std::vector<std::string> names, std::string help) {
     Choice choice{std::move(names), [&target](std::size_t index) { target = static_cast<Enum>(index); },

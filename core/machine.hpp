@@ -10,13 +10,13 @@ namespace drape {
 /// The machine that runs this process.
 struct MachineFacts {
   std::string processor;           ///< name of the model
-  std::vector<std::string> flags;  ///< the instruction sets that matter here, as in /proc/cpuinfo: "avx2", "fma"
+  std::vector<std::string> flags;  ///< relevant instruction sets, as in /proc/cpuinfo: "avx2", "fma"
   int threads = 0;                 ///< hardware threads
   std::uint64_t memory = 0;        ///< [bytes]
   std::string system;              ///< "Debian GNU/Linux 12 (bookworm), Linux 6.1.0"
 };
 
-/// Asks the system for these facts; unknown ones stay empty.
+/// Returns the facts about this machine; unknown ones are empty.
 MachineFacts machine_facts();
 
 /// Returns the memory that this process may still take [bytes]: the least of
@@ -33,7 +33,7 @@ double address_space_left(const std::filesystem::path& root = "/");
 /// @param what   subject of the message: "a sparse factor of 1000000 rows"
 /// @param bytes  memory needed in addition to that in use
 /// @param remedy advice, as in "take a coarser cloth"
-/// @throws UsageError with the figures if that is more than memory_left()
+/// @throws UsageError with the figures if `bytes` exceeds memory_left()
 void require_memory(const std::string& what, double bytes, const std::string& remedy);
 
 /// Returns how many threads of this process can run at once, at least one. It counts the processors of its affinity

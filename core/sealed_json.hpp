@@ -19,7 +19,7 @@ inline std::string json_checksum(nlohmann::ordered_json json, int indent) {
   return checksum_of(json_text(json, indent));
 }
 
-/// Returns the text of an object with that checksum as its last member.
+/// Returns the text of an object with json_checksum() as its last member.
 inline std::string sealed_json(nlohmann::ordered_json json, int indent) {
   const std::string checksum = json_checksum(json, indent);
   json.erase("checksum");

@@ -14,19 +14,19 @@
 
 namespace drape {
 
-/// A table of a scene with its path, whose keys refer to the scene's values.
+/// A table of a scene with its path and its node in the document. Its keys refer to the scene's values.
 struct WrittenTable {
   TableType type;
-  const TomlValue* written;  ///< in the document; null if absent
+  const TomlValue* written;  ///< node in the document; null if absent
   bool effect = false;
 };
 
-/// Returns all tables of a scene, effects last. Those of several cloths are cloth.NAME and cloth.NAME.transform. Their
-/// keys refer to the arguments.
+/// Returns all tables of a scene, effects last. Tables of several cloths are named cloth.NAME and cloth.NAME.transform.
+/// All keys refer to the arguments.
 std::vector<WrittenTable> written_tables(ClothList& cloths, Scene& scene, std::vector<ReadEffect>& effects,
                                          const TomlValue& document);
 
-/// Returns every key of a scene with its effective value, given or default, and "scene", the scene's name. The path of
+/// Returns every key with its effective value, given or default. The field "scene" holds the scene's name. The path of
 /// a repeated effect contains its number: effects.sphere.0.radius.
 std::vector<SceneField> scene_fields(const std::string& name, const std::vector<WrittenTable>& tables);
 
@@ -37,17 +37,17 @@ std::vector<SceneValue> physics_of_tables(const std::vector<WrittenTable>& table
 /// Returns the names of fields that vary in time: "time", "step", "energy.total".
 std::vector<std::string> moment_fields();
 
-/// Returns the value of such a field at a frame.
-/// @param step simulation step [s]
+/// Returns the value of one of the moment_fields() at a frame.
+/// @param step time step [s]
 FieldValue moment_value(const std::string& name, const Frame& frame, double step);
 
 /// Returns true if a text uses energies or iteration counts, which frames carry only on request.
 bool needs_motion_facts(const TextTemplate& text);
 
 /// Fills in the constant fields of a caption's text; the time-dependent fields stay open.
-/// @param text     caption text as the scene has it
+/// @param text     caption text from the scene
 /// @param fields   fields that the text can name beside moment_fields()
-/// @param place    place of the text, for `problems`: unknown names and formats
+/// @param place    place of the text; `problems` receives unknown field names and invalid formats
 TextTemplate fill_caption(const std::string& text, const std::vector<SceneField>& fields, const Place& place,
                           Problems& problems);
 

@@ -12,9 +12,9 @@
 
 namespace drape {
 
-/// Returns true if a sweep chooses the viewing direction of a scene's films: its camera has no position, and not both
-/// angles. All these films share the direction of the plan's `side` run, for comparison. The camera distance is fitted
-/// to each motion.
+/// Returns true if a sweep chooses the viewing direction of a scene's films: its camera has no position and lacks an
+/// angle. All such films share the direction of the plan's `side` run, for comparison. The camera distance is fitted to
+/// each motion.
 bool chooses_side(const SweepRequest& request, const Camera& camera);
 
 /// Returns the key of a run whose viewing direction comes from another run.
@@ -45,7 +45,7 @@ struct SweepDiagrams {
 /// many combinations, plots a line per value of the axis with the fewest values, through the medians over the rest.
 SweepDiagrams figure_diagrams(const SweepResults& results);
 
-/// Returns these diagrams as choices for a page that shows one at a time.
+/// Returns diagrams as choices for a page that shows one at a time.
 html::Choices choices_of(const SweepDiagrams& diagrams);
 
 /// File name of the page.

@@ -49,12 +49,12 @@ std::string program_text();
 
 /// Returns the hash of a scene and the request, independent of the other runs.
 std::string run_key(const LoadedScene& scene, const SweepRequest& request, const std::string& program);
-/// Returns the key of a run; the earlier runs of the plan must have theirs.
+/// Returns the key of a run; the earlier runs of the plan must have keys.
 std::string run_key(const LoadedScene& scene, const SweepPlan& plan);
 
 /// Resolves every run's scene and finds all errors before the first run: unknown keys, values out of range, impossible
-/// films. A conflict of valid values, such as a step too long for the method, refuses only that run. It is an error if
-/// it affects all runs.
+/// films. A conflict of valid values, such as a step too long for the method, refuses only that run. A conflict in all
+/// runs is an error.
 /// @throws Error with every problem of all runs once, and the runs affected
 SweepPlan make_plan(const SweepRequest& request);
 
@@ -63,7 +63,8 @@ std::vector<std::size_t> runs_of_shard(const SweepPlan& plan, const Shard& shard
 
 /// Returns a plan as JSON.
 nlohmann::ordered_json plan_json(const SweepPlan& plan);
-/// Reads a plan from JSON. @throws std::exception of the JSON library if anything is missing
+/// Reads a plan from JSON.
+/// @throws std::exception of the JSON library if a member is missing
 SweepPlan plan_of(const nlohmann::ordered_json& json);
 
 }  // namespace drape

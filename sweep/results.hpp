@@ -22,9 +22,11 @@ struct SweepFile {
   Shard shard;
 };
 
-/// Writes sweep.json. @throws OutputError
+/// Writes sweep.json.
+/// @throws OutputError
 void write_sweep_file(const std::filesystem::path& folder, const SweepFile& file);
-/// Reads sweep.json. @returns nothing if there is none
+/// Reads sweep.json.
+/// @returns nothing if there is none
 /// @throws UsageError if it is damaged or of another format version
 std::optional<SweepFile> read_sweep_file(const std::filesystem::path& folder);
 
@@ -74,9 +76,9 @@ SweepResults read_results(const std::filesystem::path& folder, SweepFile file,
 
 /// Rows that differ only on the last axis (across) and the last but one (down).
 struct SweepGrid {
-  std::string title;                  ///< their values on the other axes; empty: this is the only grid
-  const SweepAxis* down = nullptr;    ///< null: a single row
-  const SweepAxis* across = nullptr;  ///< null: a single column
+  std::string title;                                     ///< values on the other axes; empty: this is the only grid
+  const SweepAxis* down = nullptr;                       ///< null: a single row
+  const SweepAxis* across = nullptr;                     ///< null: a single column
   std::vector<std::vector<const SweepRow*>> cells = {};  ///< rows by row and column of the grid; null: no such run
 };
 

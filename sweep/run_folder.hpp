@@ -13,7 +13,7 @@ namespace drape {
 /// A sweep as Slurm jobs: an array of tasks, one per shard, and a final job that merges the shards.
 struct SlurmJobs {
   std::string sweep;                 ///< shell command of the whole sweep, with its folder
-  std::string program;               ///< path of this drape on the nodes
+  std::string program;               ///< path of the drape program on the nodes
   std::filesystem::path folder;      ///< folder of the sweep, shared by the nodes
   std::size_t tasks = 1;             ///< size of the array
   std::vector<std::string> options;  ///< sbatch options of both jobs: "--partition=short"
@@ -21,7 +21,8 @@ struct SlurmJobs {
 
 /// Writes sweep.sbatch, merge.sbatch and submit.sh, which submits both, into the folder. A requeued task resumes.
 /// @returns submit.sh
-/// @throws UsageError if this folder or the sweep's has a line feed in its name, where sbatch would look for options
+/// @throws UsageError if the path of the current or the sweep's folder contains a line feed, because sbatch could read
+/// options after it
 /// @throws OutputError
 std::filesystem::path write_slurm_jobs(const SlurmJobs& jobs);
 
@@ -35,8 +36,8 @@ inline const char* name_of(RunOutcome outcome) { return run_outcome_names[static
 /// The result of a run.
 struct RunRecord {
   RunOutcome outcome = RunOutcome::not_run;
-  std::string reason;              ///< reason why it is incomplete, a sentence; empty: complete
-  bool damaged = false;            ///< its file is unreadable, so it counts as not run
+  std::string reason;              ///< reason for an incomplete run, as a sentence; empty if complete
+  bool damaged = false;            ///< the record is unreadable, so the run counts as not run
   std::string timed;               ///< load of the machine as far as known: "alone", "beside 3 others"
   double seconds = 0;              ///< duration, with drawing and encoding
   std::vector<std::string> files;  ///< written files, in the run's folder
@@ -52,13 +53,13 @@ struct RunRecord {
 /// Returns the folder of a run.
 std::filesystem::path run_place(const std::filesystem::path& sweep, const std::string& key);
 
-/// Reads the record of a run; nothing if there is none. A damaged record, or that of another run, gives
-/// RunOutcome::not_run with the reason.
-/// @throws UsageError if it names a file outside the folder
+/// Reads the record of a run, if there is one. A damaged record, or one of another run, gives RunOutcome::not_run with
+/// the reason.
+/// @throws UsageError if the record names a file outside the run's folder
 std::optional<RunRecord> read_run(const std::filesystem::path& sweep, const std::string& key);
 
-/// The folder of a run, hidden until the run is complete. The destructor removes an incomplete folder; those of killed
-/// processes are removed by the next sweep, see remove_unfinished().
+/// The folder of a run, hidden until the run is complete. The destructor removes an incomplete folder. The next sweep
+/// removes folders of killed processes, see remove_unfinished().
 class RunFolder {
  public:
   /// @throws OutputError
@@ -74,7 +75,7 @@ class RunFolder {
   void clear();
 
   /// Writes the record and stats.json, and renames the folder to its final name, replacing an older one. The two files
-  /// are not synchronised to disk, which would take longer than many runs. A run damaged by a power cut is repeated.
+  /// are not flushed to disk, because flushing takes longer than many runs. A run damaged by a power cut is repeated.
   /// @param stats of the run, as JSON; empty: no step was done
   /// @throws OutputError
   void commit(const RunRecord& record, const std::string& stats);

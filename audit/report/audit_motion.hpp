@@ -31,7 +31,7 @@ struct EnergyAudit {
   static constexpr double most = 0.02;  ///< tolerated gain relative to all energy, from inexact solves of steps
 
   double rise = 0;          ///< largest rise above the previous minimum [J]
-  double of_available = 0;  ///< that rise relative to all energy that the cloth ever had
+  double of_available = 0;  ///< the rise relative to all energy that the cloth ever had
   double from = 0, to = 0;  ///< time of the rise [s]
 
   /// Returns true if the rise exceeds the tolerance of the solver.

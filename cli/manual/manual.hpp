@@ -28,8 +28,8 @@ struct CommandText {
   [[nodiscard]] std::string word() const { return name.substr(name.rfind(' ') + 1); }
 };
 
-/// Describes a command and its subcommands, without hidden ones. A value with a fixed set of words is named by them:
-/// "auto|osmesa|egl".
+/// Describes a command and its subcommands, without hidden ones. The placeholder of a value with fixed choices lists
+/// them: "auto|osmesa|egl".
 CommandText describe_command(const CLI::App& app);
 
 /// A manual page: file name, "drape-render.1", and text in man macros.

@@ -21,9 +21,9 @@
 
 namespace drape {
 
-/// Draws frames without a window. Owns a GL context during its lifetime: make, use and destroy it on one thread; a
-/// thread may have several. The next renderer, on any thread, reuses a destroyed one's context and compiled shaders. A
-/// frame always gives the same bytes, for any number of Mesa's threads.
+/// Draws frames without a window. Owns a GL context during its lifetime: make, use and destroy a renderer on one
+/// thread. A thread may have several. The next renderer, on any thread, reuses a destroyed one's context and compiled
+/// shaders. A frame always gives the same bytes, for any number of Mesa's threads.
 class Renderer {
  public:
   /// @param data_folder  holds shaders/
@@ -56,12 +56,12 @@ class Renderer {
   Image draw(const Frame& frame);
 
   /// Draws the cloth with data colours per vertex instead of its texture or colour.
-  /// @param vertex_colors one per vertex; they are lit like any other
+  /// @param vertex_colors one per vertex; they are lit like any colour
   /// @throws std::invalid_argument if their number differs from that of the vertices
   Image draw(const Frame& frame, const std::vector<Rgb>& vertex_colors);
 
-  /// Starts drawing a frame, as draw(); returns the picture of the frame before it, if that was started and not
-  /// finished. Mesa's threads draw while the caller works, so the frames of a film take less time.
+  /// Starts drawing a frame, as draw(). Returns the picture of the previous frame, if it was started and not finished.
+  /// Mesa's threads draw while the caller works, so the frames of a film take less time.
   std::optional<Image> start(const Frame& frame);
   std::optional<Image> start(const Frame& frame, const std::vector<Rgb>& vertex_colors);
 

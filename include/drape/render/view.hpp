@@ -24,37 +24,37 @@ struct View {
   Eigen::Vector3d position{0, 0, 1};  ///< [m]
   Eigen::Vector3d target{0, 0, 0};    ///< point in the middle of the picture [m]
   Eigen::Vector3d up{0, 1, 0};        ///< points upwards in the picture; need not be perpendicular to the view
-  double field_of_view = 30;          ///< of the picture's height [degrees]
+  double field_of_view = 30;          ///< vertical field of view [degrees]
 
-  /// Returns as rows the unit vectors to the picture's right, to its top, and towards the viewer. If `up` is parallel
-  /// to the view, +y replaces it, or else +z.
+  /// Returns the camera's unit axes as rows: right, up, and towards the viewer. If `up` is parallel to the view, +y
+  /// replaces it, or else +z.
   [[nodiscard]] Eigen::Matrix3d axes() const;
 
   /// Returns the transformation from the world to the camera, which looks along its own −z.
   [[nodiscard]] Eigen::Matrix4d view_matrix() const;
 
   /// Returns the projection from the camera to OpenGL's clip space.
-  /// @param aspect width of the picture by its height
+  /// @param aspect width / height of the picture
   [[nodiscard]] Eigen::Matrix4d projection_matrix(double aspect, const DepthRange& depth) const;
 };
 
-/// Returns the range that holds everything of the frame in front of the camera, with some margin.
+/// Returns the depth range of all the frame's objects in front of the camera, with a margin.
 /// @param thickness thickness of the cloth [m]
 DepthRange depth_range(const View& view, const Frame& frame, double thickness = 0);
 
-/// Returns the view from 1 m towards the origin, in the direction of a camera without a position. If that camera looks
+/// Returns a view of the origin from 1 m away, in the direction of a camera without a position. If that camera looks
 /// along its `up`, the view gets another up.
 View distant_view(const Camera& camera);
 
-/// Returns true if the view depends on the motion: unless both position and target are given.
+/// Returns true if the camera's position or target must be computed from the motion.
 bool needs_motion(const Camera& camera);
 
 /// Returns the view of a camera for which needs_motion() is false.
-/// @throws std::invalid_argument if it is true
+/// @throws std::invalid_argument if needs_motion() is true
 View fixed_view(const Camera& camera);
 
-/// Calls visit(center, radius) [m] for balls whose convex hull holds a collider; for a mesh these are its vertices. A
-/// ground is infinite and has none: the picture frames the objects on it.
+/// Calls visit(center, radius) for balls whose convex hull contains the collider [m]. A mesh yields its vertices with
+/// radius 0, an infinite ground nothing.
 template <class Visit>
 void for_each_ball(const Collider& collider, const Visit& visit) {
   if (const auto* sphere = std::get_if<SphereShape>(&collider)) visit(sphere->center, sphere->radius);
@@ -65,19 +65,18 @@ void for_each_ball(const Collider& collider, const Visit& visit) {
 
 /// Finds the nearest view in a known direction that shows a whole motion.
 ///
-/// A point p is inside a perspective frustum if it is on the inner side of four planes, n_k·p ≤ n_k·e for a camera at
-/// e, with known unit normals n_k. So only the four maxima of n_k·p over the motion are needed (a sphere adds its
-/// radius), and the nearest e that satisfies all four is exact, unlike an estimate from a bounding box. Maxima for
-/// narrower frustums determine how to centre the axis that has free space.
+/// A camera at e sees p if n_k·p ≤ n_k·e for the four planes of its frustum. Their unit normals n_k are known. So four
+/// maxima of n_k·p over the motion determine the nearest e (a sphere adds its radius). The result is exact, unlike an
+/// estimate from a bounding box. Maxima for narrower frustums centre the motion along the axis with free space.
 class Framing {
  public:
-  /// @param aspect width of the picture by its height
+  /// @param aspect width / height of the picture
   Framing(const Camera& camera, double aspect);
 
   void add(const Vertices& positions);
   /// Adds a collider; ignores a ground, which is infinite.
   void add(const Collider& collider);
-  /// Ends a frame: it holds everything added since the last call. Needed if the camera has `outside`.
+  /// Ends a frame, which holds all objects added since the last call. Needed if the camera has `outside`.
   void end_frame();
 
   /// Returns the centre of the bounding box; with `outside`, the median over the frames [m].
@@ -86,9 +85,10 @@ class Framing {
   /// Returns true if nothing has been added.
   [[nodiscard]] bool empty() const { return middles_.empty() && lowest_[0] > highest_[0]; }
 
-  /// Returns the closest view that holds everything added, with the camera's margin. With `outside`, on each side of
-  /// the picture, the frames that reach farthest may be cut. Without a target, free space in one of the two axes is
-  /// split equally. A camera with a position stays there and turns to its target, or else to the middle of the motion.
+  /// Returns the closest view of all added objects, with the camera's margin. With `outside`, each side of the picture
+  /// may cut off that fraction of the frames, the farthest-reaching ones. Without a target, free space in one of the
+  /// two axes is split equally. A camera with a position keeps it and turns to its target, or else to the middle of the
+  /// motion.
   /// @throws std::logic_error if nothing has been added
   [[nodiscard]] View view() const;
 
@@ -96,7 +96,7 @@ class Framing {
   static constexpr int widths = 64;
   using Widths = Eigen::Array<double, widths, 1>;
 
-  /// Planes on two opposite sides, horizontally or vertically, of frustums from very narrow to the full one.
+  /// Two opposite side planes, horizontal or vertical, of nested frustums from very narrow to full.
   struct Fan {
     Widths cosines, sines;  // of half the opening angle, ascending
     Widths upper, lower;    // largest n·p for the right or top planes, and for the left or bottom planes

@@ -16,9 +16,9 @@ namespace drape {
 /// Place of a value in the source. Places sort in reading order: through the file, then through the overrides.
 struct Place {
   std::size_t override_number = 0;  ///< 0: in the file; n: in the n-th override, which has no line and column
-  std::size_t line = 1;             ///< from 1; 0: no place in a text
+  std::size_t line = 1;             ///< from 1; 0: value without source text
   std::size_t column = 1;           ///< from 1, in characters
-  auto operator<=>(const Place&) const = default;  // NOLINT(modernize-use-nullptr): the 0 is the compiler's
+  auto operator<=>(const Place&) const = default;  // NOLINT(modernize-use-nullptr): compiler-generated 0
 };
 
 struct TomlValue;
@@ -67,7 +67,7 @@ inline constexpr std::size_t most_nested_names = 16;
 /// first syntax error
 TomlValue read_document(const std::filesystem::path& file);
 
-/// Reads the right side of an assignment, "[1, 2]" or "0.5"; every place in it is `place`.
+/// Parses an override's value, such as "[1, 2]" or "0.5". All its nodes get the place `place`.
 /// @throws UsageError with the parser's message
 TomlValue parse_value(std::string_view text, const Place& place);
 
@@ -114,8 +114,9 @@ class Problems {
 
 /// Applies assignments "key.path=value" to a document in order, as if the file contained them. The value is any TOML
 /// value, or a bare word, which is a string. Missing tables on the path are added. A number on the path picks an item
-/// of an array; an array of one table needs no number: effects.sphere.0.radius, effects.sphere.radius. An item of an
-/// absent array changes the array's default: video.size.0. Failed assignments are added to `problems`.
+/// of an array: effects.sphere.0.radius. The number may be omitted for an array of one table: effects.sphere.radius.
+/// Assigning to an item of an absent array changes the array's default: video.size.0. Failed assignments are added to
+/// `problems`.
 void apply_overrides(TomlValue& document, const std::vector<std::string>& overrides, Problems& problems);
 
 /// Computes a hash of a document's content, 16 hexadecimal digits. Comments, the order of keys and the notation of

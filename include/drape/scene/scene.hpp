@@ -34,7 +34,7 @@ struct PictureLimits {
   double flip = 0.05;     ///< largest FLIP error of a pixel
 };
 
-/// A rectangle of golden pixels: column and row of its top left one, width and height.
+/// A rectangle of golden pixels: left column, top row, width and height.
 using PixelRectangle = std::array<int, 4>;
 
 /// The [check] table of a scene: which golden frames and motion to compare, and with which tolerances.
@@ -67,7 +67,7 @@ enum class Quality { draft, film, print };
 
 /// A scene: plain data, complete and checked.
 struct Scene {
-  std::string name;  ///< the file's name without its ending: "5" for scenes/homework/5.toml
+  std::string name;  ///< file name without extension: "5" for scenes/homework/5.toml
   SimulationSettings simulation;
   double duration = 5;                    ///< [s]
   std::vector<std::array<float, 2>> uvs;  ///< texture coordinates of the cloth per triangle corner, see Mesh::uvs
@@ -78,16 +78,15 @@ struct Scene {
   OverlaySettings overlay;
   CheckSettings check;
   std::optional<MethodChoice> choice;  ///< automatic choice of a method if none is named
-  std::optional<Quality> quality;      ///< quality that its numbers were adjusted for
+  std::optional<Quality> quality;      ///< quality already applied to the settings, see apply_quality()
 
   /// Returns the number of steps that cover the duration: duration/step, rounded to the nearest whole number.
   [[nodiscard]] std::int64_t step_count() const;
 };
 
 /// A scene as one self-contained text and its files. The overrides are applied in the text, and the files have new
-/// names in it: "file-1.obj". One folder with all of them holds the whole scene, except [check], whose goldens lie
-/// beside the original file. Files that a USD file refers to keep their names without folders; UsdStage finds them
-/// there.
+/// names in it: "file-1.obj". A folder with these files holds the whole scene except [check], whose goldens lie beside
+/// the original file. Files referenced by a USD file keep their base names, so that UsdStage finds them.
 struct PortableScene {
   struct File {
     std::string name;             ///< name in the text
@@ -117,28 +116,28 @@ struct LoadedScene : Scene {
   SceneSource source;
 };
 
-/// Cells of a scene's grid.
+/// Resolution of a scene's grid.
 enum class Cells {
   of_quality,  ///< as written, or coarsened for a draft, see coarsen_grid()
   as_written,
-  of_draft  ///< coarsened, whatever the quality is
+  of_draft  ///< always coarsened, see coarsen_grid()
 };
 
 /// Reads a scene file.
-/// @param overrides "key.path=value", applied in order as if the file contained them, and checked like it; the value is
-///                  any TOML value, or a bare word, which is a string
+/// @param overrides assignments "key.path=value", applied in order and checked like the file. A value is TOML or a bare
+///                  word, read as a string.
 /// @throws UsageError whose message lists every problem of the file and the overrides, a line each:
 ///         "file:line:col: message", or "--set key.path=value: message"
 LoadedScene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                        Cells cells = Cells::of_quality);
 
-/// Returns overrides by scene that give all scenes whose method was chosen the same one, so that they can be compared;
-/// see shared_method(). All are empty if these agree already or can share none.
+/// Returns overrides for each scene that give all scenes with an automatic method the same method, see shared_method().
+/// All are empty if the methods already agree or no method suits all.
 /// @param choices see Scene::choice
 std::vector<std::vector<std::string>> shared_method_overrides(const std::vector<std::optional<MethodChoice>>& choices);
 
 /// Makes a scene from a parsed document.
-/// @param document a table; messages name its places. Line 0: made by a program, without a text
+/// @param document table whose places appear in messages; places of documents without a text have line 0
 /// @param file     file name for messages; files named in the scene are looked up in its folder
 /// @throws UsageError as load_scene()
 LoadedScene make_scene(TomlValue document, const std::filesystem::path& file,
@@ -151,8 +150,11 @@ LoadedScene make_scene(TomlValue document, const std::filesystem::path& file,
 PortableScene make_portable(TomlValue document, const std::filesystem::path& folder,
                             const std::vector<std::filesystem::path>& inputs);
 
-/// Returns the data folder, which holds textures/, shaders/ and scenes/: the one set by use_data_folder(), else the one
-/// installed with the program or the library (share/drape), else the source tree of the build.
+/// Returns the data folder, which holds textures/, shaders/ and scenes/. It is the first that exists of:
+/// 1. the folder set by use_data_folder();
+/// 2. share/drape below a folder of installation_roots();
+/// 3. the source tree of the build;
+/// 4. share/drape below configured_prefix().
 /// @throws UsageError if there is none
 std::filesystem::path data_folder();
 
@@ -192,17 +194,17 @@ inline std::string stopping_rule_name(StoppingRule rule) {
 /// Returns true if a document's quality is draft.
 bool says_draft(const TomlValue& document);
 
-/// Halves the columns and rows of a draft's grid of more than 20×20 cells. Grids with pins chosen by number or position
-/// stay; corners, edges and borders exist on every grid. A grid from the command line stays too.
+/// Halves the columns and rows of a draft's grid of more than 400 cells. Grids with pins by number or position keep
+/// their size. Pins at corners, edges or borders exist on every grid. A grid from the command line keeps its size too.
 /// @param document document of a scene, after overrides
 void coarsen_grid(TomlValue& document);
 
-/// Returns the cells that another scene needs in order to draw a motion of this one.
+/// Returns the grid resolution with which another scene must be loaded to draw this scene's motion.
 inline Cells cells_of(const Scene& scene) {
   return scene.quality == Quality::draft ? Cells::of_draft : Cells::as_written;
 }
 
-/// Adjusts settings that trade time for detail to the scene's quality, relative to their values.
+/// Scales the settings that trade time for detail according to the scene's quality.
 ///   draft  half the size, at most 12.5 frames per second, without ambient occlusion, ten times the given
 ///          tolerance
 ///   print  twice the size, at most 8192 pixels, four samples, textures filtered 16-fold
@@ -214,7 +216,7 @@ void apply_quality(Scene& scene, const std::function<bool(const char*)>& given);
 /// Camera, look, film and duration are not included. Long values (a mesh, a track) are hashed.
 std::vector<SceneValue> physics_values(const LoadedScene& scene);
 
-/// Computes a hash of these values: 16 hexadecimal digits.
+/// Computes a hash of physics_values(): 16 hexadecimal digits.
 std::string physics_hash(const std::vector<SceneValue>& values);
 
 /// Describes the differences, a line for each key: "cloth.mass: 1, and 2 in look.toml".

@@ -30,7 +30,7 @@ namespace drape {
 
 /// Returns the rotations about the fixed x, y and z axes, to be applied in this order.
 std::array<Eigen::Matrix3d, 3> turns_about_axes(const Eigen::Vector3d& degrees);
-/// Returns the product of all three.
+/// Returns the product of the rotations about the three axes.
 Eigen::Matrix3d turn_about_axes(const Eigen::Vector3d& degrees);
 
 /// Position and orientation of a body: its coordinates are rotated, then translated.
@@ -80,12 +80,12 @@ struct BodyShape {
   enum class Kind { cylinder, capsule, cone, plane, sphere };
 
   Kind kind = Kind::sphere;
-  double radius = 0.5;  ///< of all kinds except the plane; of a cone at its base
-  double height = 1;    ///< of a cylinder, a cone, and a capsule including its caps
+  double radius = 0.5;  ///< for all kinds except the plane; for a cone at its base
+  double height = 1;    ///< for a cylinder, a cone, and a capsule including its caps
   double top = 0;       ///< radius of a cone's upper end
-  double width = 1;     ///< of a plane along x
-  double depth = 1;     ///< of a plane along y
-  int segments = 64;    ///< around the axis
+  double width = 1;     ///< size of a plane along x
+  double depth = 1;     ///< size of a plane along y
+  int segments = 64;    ///< number of segments around the axis
 
   bool operator==(const BodyShape&) const = default;
 };

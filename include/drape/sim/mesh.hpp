@@ -65,7 +65,7 @@ struct Grid {
 ///   size is positive
 Mesh make_grid(const Grid& grid);
 
-/// Pairs of triangles that share an edge, to count those that fold over when steps are solved too loosely.
+/// Pairs of triangles that share an edge, to count pairs that fold over when steps are solved too loosely.
 class FlippedPairs {
  public:
   explicit FlippedPairs(const std::vector<Triangle>& triangles);
@@ -79,9 +79,9 @@ class FlippedPairs {
   std::vector<std::array<int, 2>> neighbours_;  // triangles, by shared edge
 };
 
-/// Stretch of a cloth at each vertex: the largest principal stretch of the triangles around it, averaged by their rest
-/// areas. That is the largest singular value of the deformation gradient F (1: at rest). A cloth stretched by s in one
-/// direction only has s everywhere, on any mesh.
+/// Stretch of a cloth at each vertex: the mean of the largest principal stretches of its triangles, weighted by rest
+/// area. The largest principal stretch is the largest singular value of the deformation gradient F (1: at rest). A
+/// cloth stretched by s in one direction only has s everywhere, on any mesh.
 class VertexStretch {
  public:
   /// @param rest      n×3, unstrained shape [m]
@@ -106,7 +106,7 @@ class VertexStretch {
 /// Curvature of a cloth at each vertex [1/m]: (|κ₁| + |κ₂|)/2 of the principal curvatures. It is 1/(2R) on a cylinder
 /// and 1/R on a sphere of radius R, and 0 in flat parts and at borders. An edge whose triangles meet at the angle θ
 /// contributes ½θ times its length, shared by its two vertices. This is the integral of the mean curvature over a
-/// rounded edge (Cohen-Steiner and Morvan 2003). A vertex has the area of a third of its triangles.
+/// rounded edge (Cohen-Steiner and Morvan 2003). A vertex's area is a third of its triangles' area.
 class VertexCurvature {
  public:
   /// @param vertex_count of the cloth

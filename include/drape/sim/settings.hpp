@@ -63,7 +63,7 @@ enum class TimeScheme {
 struct SchemeTraits {
   std::string_view name;   ///< in scenes
   std::string_view title;  ///< in a sentence
-  int order = 1;           ///< of convergence
+  int order = 1;           ///< order of convergence
   int stages = 1;          ///< minimisations in a step
 };
 
@@ -178,9 +178,10 @@ class Stop {
   explicit Stop(std::function<bool()> asked)
       : asked_(std::make_shared<const std::function<bool()>>(std::move(asked))) {}
 
-  /// Returns false if it can never stop.
+  /// Returns false if this object never stops.
   [[nodiscard]] bool possible() const { return asked_ != nullptr; }
 
+  /// Checks for a stop request.
   /// @throws Interrupted if a stop is requested
   void look() const {
     if (asked_ && (*asked_)()) throw Interrupted();
@@ -193,11 +194,11 @@ class Stop {
 /// Returns the instruction sets that the hot loops are compiled for, slowest first; some may not run here.
 std::vector<std::string> instruction_sets();
 
-/// Returns the one in use: the fastest that this processor supports, within the limit.
+/// Returns the instruction set in use: the fastest that this processor supports, within the limit.
 std::string instruction_set();
 
-/// Limits every simulation of the process to this instruction set; all give the same bits. Do not call while another
-/// thread computes.
+/// Limits every simulation of the process to this instruction set; all sets give the same bits. Do not call while
+/// another thread computes.
 /// @throws UsageError if the name is unknown
 void limit_instruction_set(std::string_view name);
 

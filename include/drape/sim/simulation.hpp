@@ -25,9 +25,9 @@ namespace drape {
 /// Option to measure the computing time of effects.
 enum class Timing { none, effects };
 
-/// A cloth in motion: owns its state, all that acts on it, and the scheme. It uses no files, and only the threads
-/// requested in the settings. The same settings give the same bits, with any number of threads. It can be moved; a
-/// moved-from simulation can only be assigned to.
+/// A cloth in motion: owns its state, the effects, and the scheme. It uses no files, and only the threads requested in
+/// the settings. The same settings give the same bits, with any number of threads. It can be moved; a moved-from
+/// simulation can only be assigned to.
 class Simulation {
  public:
   /// @param settings as from a scene: a positive step, at least one thread, and effects that pass check(), which is not
@@ -44,8 +44,8 @@ class Simulation {
   /// Advances the cloth by one step.
   /// @throws DivergedError if a position or velocity is no longer finite, or the cloth gains unexplained energy, see
   ///         StabilityGuard
-  /// @throws Interrupted between any two pieces of its work. The state of the motion is then as before the step, but
-  ///         the data about the last step below are not.
+  /// @throws Interrupted between any two pieces of its work. The state is then as before the step. Data about the last
+  ///         step, such as residual(), are not preserved.
   StepReport step();
 
   /// Undoes the last step if a stop is possible; only once, and not after a restore. For an interruption while a
@@ -87,7 +87,8 @@ class Simulation {
   [[nodiscard]] bool only_loses_energy() const;
   /// Returns ‖∇g‖ at the end of the last step [N], see Scheme::residual.
   [[nodiscard]] double residual() const;
-  /// Returns the estimated error of the last step's solve [m], see Scheme::error. @throws Interrupted
+  /// Returns the estimated error of the last step's solve [m], see Scheme::error.
+  /// @throws Interrupted
   [[nodiscard]] double error() const;
   /// Returns the residual forces of the last step [N], see Scheme::residual_force.
   [[nodiscard]] double residual_force() const;
@@ -95,7 +96,7 @@ class Simulation {
   [[nodiscard]] double weight() const;
   /// Returns the stopping criterion of a step; nothing for methods that minimise nothing.
   [[nodiscard]] std::optional<Accuracy> accuracy() const;
-  /// Returns everything that the cloth can touch, at a time [s].
+  /// Returns all obstacles that the cloth can touch, at a time [s].
   [[nodiscard]] std::vector<Collider> colliders(double time) const;
 
  private:

@@ -56,13 +56,12 @@ struct State {
   Vertices x = {};  ///< n×3 [m]
   Vertices v = {};  ///< n×3 [m/s]
   std::int64_t step = 0;
-  /// From the last step, as an initial guess for the next: for the implicit solve, and for the limits. It influences
-  /// the rest of the motion only within the tolerances of both.
+  /// Effect of strain limits in the last step, an initial guess for the implicit solve and the limits of the next. It
+  /// influences the motion only within their tolerances.
   Restraint restraint = {};
-  /// With an accuracy, number of substeps to begin the next step with; 0: none known.
+  /// Number of substeps to begin the next step with, if an accuracy is set; 0: none known.
   std::int64_t substeps = 0;
-  /// By implicit methods, friction's contacts at the end of the last step: an initial guess for the next, as
-  /// `restraint`.
+  /// Friction contacts of implicit methods at the end of the last step, an initial guess for the next like `restraint`.
   std::vector<ContactForce> contact_forces = {};
 };
 
@@ -74,7 +73,7 @@ struct EnergyMemory {
   double explained = 0;          ///< [J]
   Vertices looked_at;            ///< positions at the last check, n×3 [m]
   double work = 0;               ///< since the last check; by SDIRK2: since the start, plus the initial energy [J]
-  std::optional<double> energy;  ///< by SDIRK2: kinetic and elastic energy at the last check [J]
+  std::optional<double> energy;  ///< kinetic and elastic energy at the last check, for SDIRK2 [J]
 };
 
 /// A sphere at one moment.
@@ -87,25 +86,25 @@ struct SphereShape {
 /// A half-space: all points with normal·x ≤ height.
 struct GroundShape {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< outward unit normal
-  double height = 0;                                  ///< of the surface above the origin, along the normal [m]
-  double thickness = 0;                               ///< of the layer above the surface in which it pushes [m]
+  double height = 0;                                  ///< height of the surface above the origin, along the normal [m]
+  double thickness = 0;                               ///< thickness of the pushing layer above the surface [m]
 };
 
 /// A triangle mesh at one moment.
 struct MeshShape {
   std::shared_ptr<const std::vector<Triangle>> triangles;  ///< the same object at every moment
   Vertices positions;                                      ///< n×3 [m]
-  double thickness = 0;                                    ///< of the layer around the mesh in which it pushes [m]
+  double thickness = 0;                                    ///< thickness of the pushing layer around the mesh [m]
 };
 
-/// Shape of something that the cloth can touch, at one moment, as drawn.
+/// Shape of an obstacle at one moment, as drawn.
 using Collider = std::variant<SphereShape, GroundShape, MeshShape>;
 
 /// The energies of a cloth at one moment [J].
 struct Energies {
   double kinetic = 0;  ///< Σ m v²/2
   double gravity = 0;  ///< −Σ m g·x
-  double elastic = 0;  ///< of all springs and of bending
+  double elastic = 0;  ///< energy of all springs and of bending
 
   [[nodiscard]] double total() const { return kinetic + gravity + elastic; }
 };
@@ -118,7 +117,7 @@ struct Frame {
   std::vector<Collider> colliders = {};   ///< in the order of the scene
   Vertices velocities = {};               ///< n×3 [m/s]; empty unless asked for
   std::optional<Energies> energies = {};  ///< absent unless asked for
-  int iterations = 0;                     ///< of the step that contains or ends at this moment
+  int iterations = 0;                     ///< iterations of the step that contains or ends at this moment
 };
 
 /// Report of how a step was computed.

@@ -45,7 +45,7 @@ class Keyframes {
   /// Returns the value at a time [s]; constant before the first keyframe and after the last.
   [[nodiscard]] Eigen::Vector3d at(double time) const;
 
-  /// Returns its rate of change [1/s]; at a jump, the rate just before.
+  /// Returns the value's rate of change [1/s]; at a jump, the rate just before.
   [[nodiscard]] Eigen::Vector3d velocity(double time) const;
 
  private:
@@ -56,7 +56,7 @@ class Keyframes {
 /// Position of a time between two samples.
 struct Between {
   std::size_t before, after;  ///< indices of the two samples; equal at a sample, before the first and after the last
-  double share;               ///< fraction of the way from one to the other, 0 to 1; exactly 0 if they are equal
+  double share;               ///< fraction of the way from `before` to `after`, 0 to 1; exactly 0 if equal
 };
 
 /// Returns the position of a time between samples.
@@ -78,8 +78,8 @@ class SphereTrack {
 /// A circular orbit at constant speed.
 struct Orbit {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< point on its axis [m]
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< of any nonzero length; counterclockwise seen from its tip
-  double period = 1;                                 ///< of a full turn, not 0; negative: clockwise [s]
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< nonzero vector; counterclockwise seen from its tip
+  double period = 1;                                 ///< time of a full turn, not 0; negative: clockwise [s]
 };
 
 /// Returns a straight track from `start`; the velocity in m/s is 0 for a fixed sphere.
@@ -89,10 +89,10 @@ std::shared_ptr<const SphereTrack> straight_track(const SphereShape& start, cons
 /// @throws std::invalid_argument if the axis or the period is 0
 std::shared_ptr<const SphereTrack> circling_track(const SphereShape& start, const Orbit& orbit);
 
-/// Returns a track with its centre at the keyframes.
+/// Returns a track whose centre follows keyframes.
 std::shared_ptr<const SphereTrack> keyframed_track(double radius, Keyframes centers);
 
-/// Returns another track with this radius [m].
+/// Returns a track with the same centre and this radius [m].
 std::shared_ptr<const SphereTrack> with_radius(std::shared_ptr<const SphereTrack> track, double radius);
 
 class MeshAnchors;
@@ -100,19 +100,19 @@ class MeshAnchors;
 /// Pins that move together. Pin k is at base + path(time), or with turns at middle + R(time)·(base − middle) +
 /// path(time), where R turns about the fixed x axis, then y, then z. With anchors it is at its point on a mesh.
 struct PinMotion {
-  std::vector<int> vertices;                                        ///< their numbers
+  std::vector<int> vertices;                                        ///< vertex numbers
   Vertices base = {};                                               ///< start positions, one row each [m]
   Keyframes path = Keyframes({Keyframe{}}, Interpolation::linear);  ///< [m]
   std::optional<Keyframes> turn = {};                               ///< angles about the axes [degrees]
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< centre of the turns, in the coordinates of `base` [m]
-  std::shared_ptr<const MeshAnchors> anchors = {};   ///< replace all of the above, one per pin
+  std::shared_ptr<const MeshAnchors> anchors = {};   ///< replace base, path, turn and middle; one per pin
 
   /// Writes the pins' positions at a time [s] into their rows of x, n×3 [m].
   void place(double time, Vertices& x) const;
 
   /// Writes the mean velocity between two times [s] into the pins' rows of v, n×3 [m/s].
   void drive(double from, double to, Vertices& v) const;
-  /// Writes the velocity at a time [s]; at a jump, the one before.
+  /// Writes the velocity at a time [s]; at a jump, the velocity before it.
   void drive(double at, Vertices& v) const;
 
  private:
@@ -125,7 +125,7 @@ struct PinMotion {
 /// A release of pins.
 struct PinRelease {
   std::int64_t step = 0;      ///< first step in which they move freely
-  std::vector<int> vertices;  ///< their numbers
+  std::vector<int> vertices;  ///< vertex numbers
 };
 
 /// A range of steps, from the first on, with the same pins.

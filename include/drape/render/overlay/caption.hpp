@@ -14,7 +14,7 @@
 
 namespace drape {
 
-/// Value of a field of a text: a number, a word, or several numbers.
+/// Value of a template field: a number, a word, or several numbers.
 using FieldValue = std::variant<std::int64_t, double, std::string, std::vector<double>>;
 
 /// Formats a value as text.
@@ -29,7 +29,7 @@ class TextTemplate {
   struct Piece {
     std::string text;  ///< plain text, or the name of a field
     bool is_field = false;
-    std::string format;  ///< of a field, see format_field()
+    std::string format;  ///< format of a field, see format_field()
     bool operator==(const Piece&) const = default;
   };
 
@@ -51,7 +51,7 @@ class TextTemplate {
   std::vector<Piece> pieces_;
 };
 
-/// Position in a picture. In the order of the names in a scene.
+/// Position in a picture. Enumerators have the order of their names in scenes.
 enum class CaptionPlace { top_left, top, top_right, bottom_left, bottom, bottom_right };
 
 /// A text on every picture of a film.
@@ -79,15 +79,15 @@ inline constexpr int least_text_size = 6;
 /// @returns 0 if the caption would be too small to read
 int largest_caption_size(Pen& pen, const std::string& text, int most, int width, int height);
 
-/// Refuses a caption of a given size that does not fit into the picture; a caption without a size shrinks instead.
+/// Checks that a caption fits into the picture. A caption without a size may shrink, down to `least_text_size`.
 /// @param text longest text that may appear
-/// @throws UsageError with the largest size that fits
+/// @throws UsageError with the largest size that fits, if there is one
 void require_room(Pen& pen, const CaptionSettings& caption, const std::string& text, int width, int height);
 
 /// Writes a caption into a picture, in as many lines as needed. A caption that has outgrown the picture during the film
 /// is written smaller.
 /// @param text       text at this moment
-/// @param background colour behind it, which decides the colour of a caption without one
+/// @param background colour behind the caption; a caption without its own colour contrasts with it
 void draw_caption(Image& picture, Pen& pen, const CaptionSettings& caption, const std::string& text,
                   const Rgb& background);
 

@@ -39,7 +39,8 @@ class Fonts {
   /// @param size font size [pixels]
   const Glyph& glyph(char32_t character, int size);
 
-  /// Requires a font for each character. @throws OutputError with the missing characters and the packages to install
+  /// Requires a font for each character.
+  /// @throws OutputError with the missing characters and the packages to install
   void require(std::string_view utf8);
 
   /// Returns name and file of a character's font: "DejaVu Sans (/usr/…/DejaVuSans.ttf)"; empty: none.
@@ -96,7 +97,8 @@ class Pen {
   /// @param width width of the line [pixels]
   static void line(Image& image, double x0, double y0, double x1, double y1, double width, const Rgb& color);
 
-  /// Fills a rectangle. @param part opacity, 0 to 1
+  /// Fills a rectangle.
+  /// @param part opacity, 0 to 1
   static void fill(Image& image, const PictureBox& box, const Rgb& color, double part = 1);
 
  private:

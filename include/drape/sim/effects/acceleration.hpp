@@ -18,7 +18,7 @@
 
 namespace drape {
 
-/// Uniform acceleration whose potential energy is reported as gravity's.
+/// Uniform acceleration whose potential energy is reported as Energies::gravity.
 struct Gravity {
   static constexpr std::string_view name = "gravity";
 
@@ -28,7 +28,7 @@ struct Gravity {
   void install(System& system) const;
 };
 
-/// Uniform acceleration as in the homework: a second gravity. For the force of moving air see Air.
+/// Second uniform acceleration beside Gravity. For the force of moving air see Air.
 struct Wind {
   static constexpr std::string_view name = "wind";
   static constexpr EffectCost cost{.evaluated = 10e-9, .solved = 10e-9};
@@ -47,8 +47,8 @@ struct Field {
 
   /// Components along x, y and z, each a formula in x, y, z, t, vx, vy and vz, see FormulaField [m/s²].
   std::array<std::string, 3> acceleration = {"0", "0", "0"};
-  /// Largest change of the acceleration with the position, √λ_max of JᵀJ with the derivative J [1/s²]. Explicit methods
-  /// need it for formulas that depend on the position, to find their largest stable step.
+  /// Upper bound on the spectral norm of the Jacobian ∂a/∂x [1/s²]. Explicit methods need it for formulas that depend
+  /// on the position, to find their largest stable step.
   std::optional<double> stiffness_bound = {};
 
   void describe(Keys& keys);

@@ -40,7 +40,7 @@ class Gusts {
     std::array<std::int64_t, 4> place = {};
     std::array<Eigen::Vector3d, 16> corners;
   };
-  /// The same, and keeps the cell that holds the position: the next position is likely to be in it.
+  /// Works like at(place, time), but reuses and updates the last cell: the next position is likely to be in it.
   [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector3d& place, double time, std::optional<Cell>& last) const;
 
  private:

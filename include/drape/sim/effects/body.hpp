@@ -41,7 +41,7 @@ struct Body {
   std::optional<Eigen::Vector3d> velocity = {};   ///< constant velocity [m/s]
   std::optional<double> orbit_period = {};        ///< period of the orbit, not 0; negative: clockwise [s]
   Eigen::Vector3d orbit_center = Orbit{}.center;  ///< point on the axis [m]
-  Eigen::Vector3d orbit_axis = Orbit{}.axis;      ///< of any nonzero length; counterclockwise seen from its tip
+  Eigen::Vector3d orbit_axis = Orbit{}.axis;      ///< nonzero vector; counterclockwise seen from its tip
   std::vector<Keyframe> keyframes = {};           ///< positions of `center` at ascending times from 0 s on [s, m]
   Interpolation interpolation = Interpolation::linear;
   std::vector<Keyframe> turns = {};     ///< angles about the fixed x axis, then y, then z, from 0 at 0 s on [degrees]
@@ -58,7 +58,7 @@ struct Body {
 };
 
 /// Returns a box around the origin: eight vertices and two triangles per side, counterclockwise seen from outside.
-/// @param size of its sides [m]
+/// @param size lengths of the sides [m]
 Mesh make_box(const Eigen::Vector3d& size);
 
 }  // namespace drape

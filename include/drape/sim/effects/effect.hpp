@@ -125,7 +125,7 @@ struct EffectType {
 std::span<const EffectType> effect_types();
 
 /// Effects of a simulation in order of evaluation. This is the registry's order, independent of the order of add(). An
-/// effect of an unregistered type keeps the position where it was added; no other moves past it.
+/// effect of an unregistered type keeps the position where it was added; no other effect moves past it.
 class Effects {
  public:
   Effects() = default;

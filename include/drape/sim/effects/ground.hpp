@@ -23,7 +23,7 @@ struct Ground {
   double friction = 0.5;   ///< Coulomb's coefficient
   double restitution = 0;  ///< coefficient for impacts, 0 to 1
 
-  bool allow_overlap = false;  ///< whether the cloth may begin inside of it, and is separated step by step
+  bool allow_overlap = false;  ///< true: the cloth may begin inside, and is separated step by step
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;

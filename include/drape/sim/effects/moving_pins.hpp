@@ -37,7 +37,7 @@ struct MovingPins {
   std::optional<double> release = {};  ///< time of release, at the current velocity [s]; default: never
   std::vector<Keyframe> turns = {};    ///< angles about the fixed x axis, then y, then z, around the centroid [degrees]
   std::shared_ptr<const MeshMotion> follow = {};  ///< mesh that the pins follow instead, see MeshAnchors
-  std::string cloth = {};                         ///< name of the cloth that has them; empty: the only one
+  std::string cloth = {};                         ///< name of the pins' cloth; empty: the only one
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;

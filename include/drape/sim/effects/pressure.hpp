@@ -19,7 +19,7 @@ struct Pressure {
   static constexpr std::string_view name = "pressure";
   static constexpr EffectCost cost{.evaluated = 11e-9, .solved = 0.1e-6};
 
-  /// Pressure inside above that outside [Pa], at least 0; of an ideal gas that at the start.
+  /// Excess of the inside over the outside pressure [Pa], at least 0; for an ideal gas, its initial value.
   double pressure = 0;
   Gas gas = Gas::constant;
   /// Pressure outside, for an ideal gas [Pa], at least 0.

@@ -13,7 +13,7 @@ namespace drape {
 
 /// Friction between two cloths.
 struct ClothFriction {
-  std::array<std::string, 2> cloths;  ///< their names; twice the same: a cloth with itself
+  std::array<std::string, 2> cloths;  ///< names; two equal ones: a cloth with itself
   double friction = 0;                ///< Coulomb's coefficient
 };
 
@@ -27,7 +27,7 @@ struct SelfCollision {
   double thickness = 0.01;  ///< distance between layers of the cloth [m]
   double friction = 0.3;    ///< Coulomb's coefficient between layers
 
-  bool allow_overlap = false;  ///< whether the cloth may begin across itself, and is separated step by step
+  bool allow_overlap = false;               ///< true: the cloth may begin across itself, and is separated step by step
   std::vector<ClothFriction> contact = {};  ///< instead of `friction`, for these pairs of cloths
 
   void describe(Keys& keys);

@@ -26,16 +26,16 @@ struct Sphere {
   std::optional<Eigen::Vector3d> center = {};  ///< position at 0 s [m]; may be left to keyframes or a track
   std::optional<double> radius = {};           ///< drawn radius, above 0 [m]; may be left to a track
   std::optional<double> scale = {};            ///< ratio of reach to radius; at least 1, by default 1.1
-  std::optional<double> thickness = {};        ///< or the distance from reach to radius [m]
+  std::optional<double> thickness = {};        ///< distance from radius to reach, instead of `scale` [m]
 
-  std::optional<double> stiffness = {};    ///< of the push, by default 8000 [1/s²]
+  std::optional<double> stiffness = {};    ///< stiffness of the push, by default 8000 [1/s²]
   double friction = 0;                     ///< Coulomb's coefficient
   std::optional<double> restitution = {};  ///< coefficient for impacts, 0 to 1; contact has none by default
 
   std::optional<Eigen::Vector3d> velocity = {};   ///< constant velocity [m/s]
   std::optional<double> orbit_period = {};        ///< period of the orbit, not 0; negative: clockwise [s]
   Eigen::Vector3d orbit_center = Orbit{}.center;  ///< point on the axis [m]
-  Eigen::Vector3d orbit_axis = Orbit{}.axis;      ///< of any nonzero length; counterclockwise seen from its tip
+  Eigen::Vector3d orbit_axis = Orbit{}.axis;      ///< nonzero vector; counterclockwise seen from its tip
   std::vector<Keyframe> keyframes = {};           ///< positions of the centre at ascending times from 0 s on [s, m]
   Interpolation interpolation = Interpolation::linear;
   std::shared_ptr<const SphereTrack> track = {};  ///< position and, unless `radius` is given, size

@@ -13,9 +13,9 @@ struct System;
 /// accurate as large ones, and rest is exact. The tolerance is the smaller of two. The first is 0.1 r τ²a, or 0.05 r²
 /// τ²a for a scheme of order 2: about a tenth of the scheme's own error. An error δ amounts to a missing force of
 /// Mδ/τ². If forces change by the fraction r in a step, a scheme's forces err by about ½ rᵖ of their size (backward
-/// Euler: ½h²a' of a velocity, relative to ha). r is at most 1; a step that starts where the initial forces lead
-/// measures it by its initial error. The second is 1 % of the longest displacement in the step, for large forces that
-/// move little. Contact solved with the cloth has its own rule, see ContactSolver.
+/// Euler: ½h²a' of a velocity, relative to ha). r is at most 1; it is the start error of the minimisation, relative to
+/// τ²a. The second is 1 % of the longest displacement in the step, for large forces that move little. Contact solved
+/// with the cloth has its own rule, see ContactSolver.
 struct Accuracy {
   StoppingRule rule;
   double tolerance;  ///< given tolerance [m], or [N] for StoppingRule::gradient
