@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <memory>
 #include <new>
 #include <optional>
@@ -532,11 +534,16 @@ const CLI::App& find_command(const CLI::App& app, std::span<const std::string> n
 }  // namespace drape
 
 int main(int argc, char** argv) {
-  drape::open_standard_streams();
-  drape::use_portable_data();
-  // Turn a vanished reader and the file size limit into write errors: death by signal would leave temporary files
-  // behind.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-  return static_cast<int>(drape::run_command_line(argc, argv));
+  try {
+    drape::open_standard_streams();
+    drape::use_portable_data();
+    // Turn a vanished reader and the file size limit into write errors: death by signal would leave temporary files
+    // behind.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+    return static_cast<int>(drape::run_command_line(argc, argv));
+  } catch (const std::exception& error) {  // outside of a command, which reports its own
+    std::fprintf(stderr, "drape: %s\n", error.what());
+    return static_cast<int>(drape::ExitCode::usage);
+  }
 }
