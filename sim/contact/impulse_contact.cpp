@@ -298,8 +298,7 @@ void ImpulseContact::hold() {
 
 bool ImpulseContact::hold_with_obstacle(const ContactConstraint& contact, std::vector<double>& inverse_masses,
                                         std::vector<Point>& velocities) const {
-  double weight = 0;
-  for (Index i = 0; i < Index(contact.count); ++i) weight += contact.weights[i];
+  const double weight = contact.weight();
   bool more = false;
   for (Index i = 0; i < Index(contact.count); ++i) {
     const auto vertex = Index(contact.vertices[i]);

@@ -210,10 +210,9 @@ void Sdirk2::solve(double end, const Vertices* expected, StepReport& report) {
 
 Sdirk2Guard::Sdirk2Guard(const System& system)
     : condition_(system),
-      watches_(system.pin_motions.empty() && system.filters.empty() && system.contacts.empty()),
-      rounding_(energy_rounding(system)) {
-  watches_ = watches_ || system.only_loses_energy();
-}
+      watches_((system.pin_motions.empty() && system.filters.empty() && system.contacts.empty()) ||
+               system.only_loses_energy()),
+      rounding_(energy_rounding(system)) {}
 
 void Sdirk2Guard::begin(const State& state, double energy) {
   if (!watches_) return;
