@@ -21,7 +21,8 @@ bool has_any(const std::vector<int>& sorted, const Vertices& vertices) {
 /// Visitor that collects the overlap of a cloth with a shape.
 class OverlapFinder {
  public:
-  OverlapFinder(const Cloth& cloth, const Vertices& x, Overlap& overlap) : cloth_(cloth), x_(x), overlap_(overlap) {
+  OverlapFinder(const Cloth& cloth, const Vertices& x, Overlap& overlap)
+      : cloth_(cloth), rounding_(1e-12 * std::max(1.0, x.cwiseAbs().maxCoeff())), overlap_(overlap) {
     for (Eigen::Index i = 0; i < x.rows(); ++i) points_.emplace_back(x.row(i).transpose());
   }
 
@@ -53,9 +54,6 @@ class OverlapFinder {
   }
 
  private:
-  /// Rounding error of positions: points this near a surface are not inside [m].
-  [[nodiscard]] double rounding() const { return 1e-12 * std::max(1.0, x_.cwiseAbs().maxCoeff()); }
-
   [[nodiscard]] Point crossing_point(const Edge& edge, const Triangle& triangle) const {
     const auto at = [&](int vertex) -> const Point& { return points_[static_cast<std::size_t>(vertex)]; };
     const Point &from = at(edge[0]), &to = at(edge[1]), &corner = at(triangle[0]);
@@ -68,7 +66,7 @@ class OverlapFinder {
     for (int i = 0; i < cloth_.vertex_count(); ++i) {
       if (std::ranges::binary_search(cloth_.pins, i)) continue;
       const double depth = depth_of(points_[static_cast<std::size_t>(i)]);
-      if (!(depth > rounding())) continue;
+      if (!(depth > rounding_)) continue;
       overlap_.vertices.push_back(i);
       overlap_.depth = std::max(overlap_.depth, depth);
     }
@@ -95,7 +93,7 @@ class OverlapFinder {
       if (has_any(cloth_.pins, edge)) continue;
       // Cloth on the surface of a solid meets the border of its sides.
       const auto foot = mesh.find(middle / found, 0);
-      if (!mesh.solid() || (foot && -foot->distance > rounding())) edges_.push_back(edge);
+      if (!mesh.solid() || (foot && -foot->distance > rounding_)) edges_.push_back(edge);
     }
     for (const Intersection& found : find_intersections(unique_edges(body), cloth_.triangles, points_)) {
       if (!has_any(cloth_.pins, cloth_.triangles[found.triangle])) {
@@ -121,7 +119,7 @@ class OverlapFinder {
   }
 
   const Cloth& cloth_;
-  const Vertices& x_;
+  double rounding_;  // of positions: points this near a surface are not inside [m]
   Overlap& overlap_;
   std::vector<Point> points_;
   std::vector<Edge> edges_;  // of the cloth, that pass through triangles

@@ -1,6 +1,6 @@
 // Whole runs over all kinds of contact with static obstacles: the total energy never rises, and nothing passes through.
-// DRAPE_ENERGY_RUNS sets the number of the 1500 runs of 30×30 cells in Nightly/ObstaclesAtRest; script/contact-energy
-// makes a table of them.
+// DRAPE_ENERGY_RUNS sets the number of the 1500 runs of 30×30 cells in Nightly/ObstaclesAtRest, and
+// DRAPE_ENERGY_SECONDS the CPU time after which such a run ends; script/contact-energy makes a table of them.
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <string>
@@ -224,8 +225,12 @@ TEST_P(ObstaclesAtRest, GiveNoEnergyAndLetNothingPass) {
   const Trial& run = GetParam();
   const SimulationSettings settings = make(run);
   const double all = to_give(run, settings);
+  const auto steps = std::lround((run.step() > 0.005 ? 60 : 100) * run.step() / settings.step);
+  const char* const seconds = run.nightly ? std::getenv("DRAPE_ENERGY_SECONDS") : nullptr;
   const AuditedRun audited =
-      audit_run(settings, std::lround((run.step() > 0.005 ? 60 : 100) * run.step() / settings.step));
+      audit_run(settings, steps, seconds == nullptr ? std::numeric_limits<double>::infinity() : std::atof(seconds));
+  RecordProperty("steps", std::to_string(audited.steps));
+  RecordProperty("of_steps", std::to_string(steps));
   RecordProperty("rise_percent", std::to_string(100 * audited.rise.rise / all));
   RecordProperty("passages", audited.with_passages + audited.with_crossings + (audited.deepest > 0 ? 1 : 0));
   EXPECT_LE(audited.rise.rise, stable * all) << run.title() << ": " << 100 * audited.rise.rise / all << " % from step "

@@ -1,6 +1,7 @@
 #include "tests/support/audited_run.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <variant>
 
 #include "audit/crossings.hpp"
@@ -70,7 +71,7 @@ class Auditor {
 
 }  // namespace
 
-AuditedRun audit_run(const SimulationSettings& settings, std::int64_t steps) {
+AuditedRun audit_run(const SimulationSettings& settings, std::int64_t steps, double most_seconds) {
   Simulation simulation(settings);
   std::vector<Collider> before = simulation.colliders(0);
   Auditor auditor(settings.cloth, before);
@@ -82,6 +83,7 @@ AuditedRun audit_run(const SimulationSettings& settings, std::int64_t steps) {
     auditor.audit(from, simulation.state().x, before, after);
     before = std::move(after);
     energies.push_back(simulation.energies().total());
+    if (static_cast<double>(std::clock()) / CLOCKS_PER_SEC > most_seconds) break;
   }
   auditor.run.last = simulation.state();
   auditor.run.rise = largest_rise(energies);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ struct AuditedRun {
   std::vector<std::string> first;  ///< the first findings, at most ten: "step 3: cloth edge 1 2 meets …"
 };
 
-/// Simulates `steps` steps and audits each.
-AuditedRun audit_run(const SimulationSettings& settings, std::int64_t steps);
+/// Simulates `steps` steps and audits each. Ends earlier once the process has used `most_seconds` of CPU time.
+AuditedRun audit_run(const SimulationSettings& settings, std::int64_t steps,
+                     double most_seconds = std::numeric_limits<double>::infinity());
 
 }  // namespace drape::test
