@@ -16,6 +16,7 @@
 #include "core/console.hpp"
 #include "core/text.hpp"
 #include "drape/scene/document.hpp"
+#include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/simulation.hpp"
 #include "run/outputs.hpp"
 #include "run/progress.hpp"
@@ -72,6 +73,7 @@ class Advice {
     without_effect();
     camera();
     steps();
+    thickness();
     for (const StartOverlap& overlap : start_overlaps(scene_.simulation)) {
       found_.push_back(fmt::format("{}: {}", shown(scene_.source.file), overlap_advice(overlap, scene_.simulation)));
     }
@@ -162,6 +164,26 @@ class Advice {
         fmt::format("{:g} s is {:.0f} times what the springs' vibrations take, so backward Euler damps motion that is "
                     "not theirs as well; try step = {:.1g}, a smaller stiffness, or [integrator] scheme = \"sdirk2\"",
                     step, step / safe, many / 2 * safe));
+  }
+
+  /// Warns about layers so thick that neighbours within a flat cloth touch each other.
+  void thickness() {
+    constexpr double nearest = 0.7;  // distance of features without a common vertex at rest, in edges of a grid
+    const Cloth& cloth = scene_.simulation.cloth;
+    double sum = 0;
+    for (const Triangle& t : cloth.triangles) {
+      for (std::size_t c = 0; c < 3; ++c) sum += (cloth.rest.row(t[c]) - cloth.rest.row(t[(c + 1) % 3])).norm();
+    }
+    const double edge = sum / (3 * static_cast<double>(cloth.triangles.size()));
+    for (const Effect& effect : scene_.simulation.effects) {
+      const auto* layers = effect.as<SelfCollision>();
+      if (layers == nullptr || !(layers->thickness > nearest * edge)) continue;
+      add("effects.self_collision.thickness",
+          fmt::format(
+              "{:g} m is more than {:.2g} m, at which neighbours within the cloth touch each other, as its edges "
+              "have {:.2g} m: each step takes much longer; try thickness = {:.1g}, or a coarser mesh",
+              layers->thickness, nearest * edge, edge, nearest / 2 * edge));
+    }
   }
 
   const LoadedScene& scene_;

@@ -83,6 +83,16 @@ TEST(Lint, SaysThatStepsAreLongForTheStiffness) {
   EXPECT_NE(coarse.text.find("steps are longer than the 0.002 s between frames"), std::string::npos) << coarse.text;
 }
 
+TEST(Lint, SaysThatLayersAreThickForTheMesh) {
+  const SceneFolder folder;
+  folder.write("a.toml", test::least_scene + "[effects.self_collision]\nthickness = 0.1\n");
+  const std::string command =
+      "lint a.toml --set 'cloth.mesh={ grid = [8, 8] }' --set effects.self_collision.thickness=";
+  EXPECT_EQ(drape(folder, command + "0.1").text, "1 scene: 0 errors, 0 hints\n");  // cells are 0.25 m wide
+  const Finished thick = drape(folder, command + "0.25");
+  EXPECT_NE(thick.text.find("thickness: 0.25 m is more than "), std::string::npos) << thick.text;
+}
+
 TEST(Lint, FindsTheErrorsOfAllScenes) {
   const SceneFolder folder;
   folder.write("a.toml", "[cloth]\nmash = 1\n");
