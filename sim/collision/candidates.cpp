@@ -25,8 +25,6 @@ constexpr double slab_rounding = 64 * 0x1p-24;  // of a slab's width, in sizes
 constexpr double square_rounding = 0x1p-20;     // of squares, relative
 constexpr double least_reach = 1e-15;           // its square is a normal number in single precision [m]
 
-Box around(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
-
 }  // namespace
 
 CollisionCandidates::CollisionCandidates(const Cloth& cloth, const Threads& threads)
@@ -47,21 +45,20 @@ CollisionCandidates::CollisionCandidates(const Cloth& cloth, const Threads& thre
 
 void CollisionCandidates::surround(const std::vector<Point>& from, const std::vector<Point>& to, const Point& together,
                                    double margin) {
-  const Eigen::Vector3d all_around = Eigen::Vector3d::Constant(margin);
   vertex_boxes_.resize(from.size());
   for_all(threads_, std::ssize(from), [&](Eigen::Index index) {
     const auto i = static_cast<Index>(index);
     const Point end = to[i] - together;
-    vertex_boxes_[i] = {from[i].cwiseMin(end) - all_around, from[i].cwiseMax(end) + all_around};
+    vertex_boxes_[i] = larger(Box(from[i]).extend(end), margin);
   });
 }
 
 Box CollisionCandidates::box(const Edge& edge) const {
-  return around(vertex_boxes_[static_cast<Index>(edge[0])], vertex_boxes_[static_cast<Index>(edge[1])]);
+  return vertex_boxes_[static_cast<Index>(edge[0])].merged(vertex_boxes_[static_cast<Index>(edge[1])]);
 }
 
 Box CollisionCandidates::box(const Triangle& t) const {
-  return around(box(Edge{t[0], t[1]}), vertex_boxes_[static_cast<Index>(t[2])]);
+  return box(Edge{t[0], t[1]}).merged(vertex_boxes_[static_cast<Index>(t[2])]);
 }
 
 void CollisionCandidates::find(const std::vector<Point>& from, const std::vector<Point>& to, double reach) {
@@ -135,31 +132,6 @@ using Index = std::size_t;
 constexpr int group_size = 12;          // maximum number of triangles
 constexpr std::size_t usual_near = 32;  // body triangles near a group; its memory grows if there are more
 
-Box larger(const Box& box, double margin) { return {box.low.array() - margin, box.high.array() + margin}; }
-
-Box around_both(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
-
-bool holds(const Box& outer, const Box& inner) {
-  return (outer.low.array() <= inner.low.array()).all() && (inner.high.array() <= outer.high.array()).all();
-}
-
-/// Returns a lower bound on the distance of two boxes [m].
-double distance(const Box& a, const Box& b) {
-  return std::max({(a.low - b.high).maxCoeff(), (b.low - a.high).maxCoeff(), 0.0});
-}
-
-/// Returns the box around the paths of vertices.
-Box way_box(std::span<const int> vertices, const BodyStep& step) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box box{Point::Constant(infinity), Point::Constant(-infinity)};
-  for (const int i : vertices) {
-    const Point &a = step.from[Index(i)], &b = step.to[Index(i)];
-    box.low = box.low.cwiseMin(a.cwiseMin(b));
-    box.high = box.high.cwiseMax(a.cwiseMax(b));
-  }
-  return box;
-}
-
 /// Returns an upper bound on the displacement of the body's points in the step, relative to an earlier travel [m].
 double travel_since(double travel, const BodyStep& step) {
   return std::max(std::abs(step.start.travel() - travel), std::abs(step.end.travel() - travel));
@@ -194,7 +166,7 @@ BodyCandidates::BodyCandidates(const MeshTopology& body, int body_vertices, cons
   for (const Patch& patch : patches) {
     const auto corner = [&](int i) -> Point { return cloth.rest.row(i).transpose(); };
     const Point a = corner(patch.corners[0]), b = corner(patch.corners[1]), c = corner(patch.corners[2]);
-    boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
+    boxes.push_back(Box(a).extend(b).extend(c));
   }
   TriangleTree tree;
   tree.build(boxes, group_size);
@@ -212,10 +184,9 @@ BodyCandidates::BodyCandidates(const MeshTopology& body, int body_vertices, cons
   });
   findings_.resize(threads_.count() == 1 ? 1 : most_parts);
   Index patch = 0, vertex = 0;
-  const Box nothing{Point::Constant(1), Point::Constant(-1)};
   for (const auto& [patch_end, vertex_end] : ends) {
     groups_.push_back({std::span<const Patch>(cloth_patches_).subspan(patch, patch_end - patch),
-                       std::span<const int>(vertices_).subspan(vertex, vertex_end - vertex), nothing});
+                       std::span<const int>(vertices_).subspan(vertex, vertex_end - vertex)});
     groups_.back().near.reserve(usual_near);
     patch = patch_end;
     vertex = vertex_end;
@@ -239,8 +210,8 @@ void BodyCandidates::find(const BodyStep& step, double reach) {
 }
 
 void BodyCandidates::find_of(Group& group, const BodyStep& step, double reach, SearchResults& findings) const {
-  const Box box = way_box(group.vertices, step);
-  if (!holds(group.region, larger(box, reach + travel_since(group.travel, step)))) {
+  const Box box = box_of_paths(group.vertices, step.from, step.to);
+  if (!group.region.contains(larger(box, reach + travel_since(group.travel, step)))) {
     look_around(group, box, step, reach);
   }
   if (group.near.empty() || apart(group, step, reach)) return;
@@ -251,12 +222,12 @@ void BodyCandidates::find_of(Group& group, const BodyStep& step, double reach, S
 void BodyCandidates::look_around(Group& group, const Box& box, const BodyStep& step, double reach) const {
   const TriangleTree& tree = step.end.tree();
   const double in_step = std::abs(step.end.travel() - step.start.travel());
-  const double margin = std::max(margin_, distance(box, tree.bounds()) / 2);
+  const double margin = std::max(margin_, box.exteriorDistance(tree.bounds()) / 2);
   group.region = larger(box, reach + in_step + margin);
   group.travel = step.end.travel();
   group.near.clear();
   tree.for_overlapping(group.region, [&](int t) {
-    if (group.region.overlaps(step.end.boxes()[Index(t)])) group.near.push_back(t);
+    if (group.region.intersects(step.end.boxes()[Index(t)])) group.near.push_back(t);
   });
   std::ranges::sort(group.near);
   group.level = std::numeric_limits<double>::infinity();  // no plane yet
@@ -291,21 +262,21 @@ bool BodyCandidates::apart(const Group& group, const BodyStep& step, double reac
 }
 
 void BodyCandidates::add_group(const Group& group, const BodyStep& step, double reach, SearchResults& findings) const {
-  const Box around = larger(way_box(group.vertices, step), reach);
+  const Box around = larger(box_of_paths(group.vertices, step.from, step.to), reach);
   auto& [pairs, near, near_boxes] = findings;
   near.clear();
   near_boxes.clear();
   for (const int t : group.near) {
     const Box& box = step.start.boxes()[Index(t)];
-    const Box on_its_way = &step.start == &step.end ? box : around_both(box, step.end.boxes()[Index(t)]);
-    if (!around.overlaps(on_its_way)) continue;
+    const Box on_its_way = &step.start == &step.end ? box : box.merged(step.end.boxes()[Index(t)]);
+    if (!around.intersects(on_its_way)) continue;
     near.push_back(t);
     near_boxes.push_back(on_its_way);
   }
   for (const Patch& patch : group.patches) {
-    const Box box = swept_box(patch, step.from, step.to, reach);
+    const Box box = larger(box_of_paths(patch.corners, step.from, step.to), reach);
     for (Index k = 0; k < near.size(); ++k) {
-      if (!box.overlaps(near_boxes[k])) continue;
+      if (!box.intersects(near_boxes[k])) continue;
       const int t = near[k];
       if (parted(patch.corners, body_patches_[Index(t)].corners, step.start.face_normal(t), step, reach)) continue;
       add_pairs(patch, t, step, reach, pairs);

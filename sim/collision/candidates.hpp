@@ -150,7 +150,7 @@ class BodyCandidates {
   struct Group {
     std::span<const Patch> patches;
     std::span<const int> vertices;
-    Box region;                       // body triangles that overlap it are in `near`; empty at first
+    Box region = {};                  // body triangles that overlap it are in `near`; empty at first
     double travel = 0;                // of the body when `near` was found
     std::vector<int> near = {};       // in ascending order
     Point axis = Point::Zero();       // plane axis·x = level, above all triangles of `near`

@@ -95,7 +95,7 @@ void ClosestPointCache::look(const PlacedMesh& mesh, const Point& point, Known& 
   near.point = point;
   near.travel = mesh.travel();
   near.count = near.asked = 0;
-  const double far = 2 * reach_, away = mesh.tree().distance(point);
+  const double far = 2 * reach_, away = mesh.tree().bounds().exteriorDistance(point);
   if (away > far) {
     known.clear_squared = square_of_part(away - reach_);
     return;

@@ -158,24 +158,13 @@ bool passes_through(const Point& from, const Point& to, const Point& a, const Po
   return !left || !right;
 }
 
-template <class Vertex>
-Box box_of(const Vertex& vertices, const std::vector<Point>& points) {
-  const Point& first = points[static_cast<std::size_t>(vertices[0])];
-  Box box{first, first};
-  for (const int v : vertices) {
-    box.low = box.low.cwiseMin(points[static_cast<std::size_t>(v)]);
-    box.high = box.high.cwiseMax(points[static_cast<std::size_t>(v)]);
-  }
-  return box;
-}
-
 }  // namespace
 
 std::vector<Intersection> find_intersections(const std::vector<Edge>& edges, const std::vector<Triangle>& triangles,
                                              const std::vector<Point>& points) {
   const auto place = [&](int v) -> const Point& { return points[static_cast<std::size_t>(v)]; };
   std::vector<Box> boxes;
-  for (const Triangle& t : triangles) boxes.push_back(box_of(t, points));
+  for (const Triangle& t : triangles) boxes.push_back(box_of_paths(t, points, points));
   SpatialHash hash;
   hash.build(boxes);
   std::vector<Intersection> found;
@@ -183,7 +172,7 @@ std::vector<Intersection> find_intersections(const std::vector<Edge>& edges, con
   for (const Edge& edge : edges) {
     const int i = edge[0], j = edge[1];  // clang 14 lets no lambda capture a structured binding
     passed.clear();
-    hash.for_overlapping(box_of(edge, points), [&](int k) {
+    hash.for_overlapping(box_of_paths(edge, points, points), [&](int k) {
       const auto number = static_cast<std::size_t>(k);
       const auto& [a, b, c] = triangles[number];
       if (i == a || i == b || i == c || j == a || j == b || j == c) return;

@@ -190,17 +190,4 @@ std::vector<Patch> make_patches(const std::vector<Triangle>& triangles, int firs
   return patches;
 }
 
-Box swept_box(const Patch& patch, const std::vector<Point>& from, const std::vector<Point>& to, double margin) {
-  const Point& start = from[static_cast<std::size_t>(patch.corners[0])];
-  Box box{start, start};
-  for (const int i : patch.corners) {
-    const Point &a = from[static_cast<std::size_t>(i)], &b = to[static_cast<std::size_t>(i)];
-    box.low = box.low.cwiseMin(a).cwiseMin(b);
-    box.high = box.high.cwiseMax(a).cwiseMax(b);
-  }
-  box.low.array() -= margin;
-  box.high.array() += margin;
-  return box;
-}
-
 }  // namespace drape

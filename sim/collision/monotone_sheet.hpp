@@ -6,7 +6,6 @@
 #include "drape/sim/cloth.hpp"
 #include "drape/sim/mesh.hpp"
 #include "sim/collision/distance.hpp"
-#include "sim/collision/spatial_index.hpp"
 
 namespace drape {
 
@@ -65,8 +64,5 @@ struct Patch {
 /// Returns the patches of a mesh, in the order of its triangles.
 /// @param first number of the mesh's first vertex
 std::vector<Patch> make_patches(const std::vector<Triangle>& triangles, int first, int vertex_count);
-
-/// Returns the box around a patch on straight paths, enlarged by a margin [m].
-Box swept_box(const Patch& patch, const std::vector<Point>& from, const std::vector<Point>& to, double margin);
 
 }  // namespace drape

@@ -94,7 +94,7 @@ void PlacedMesh::update(const Vertices& x) {
   for (Index t = 0; t < normals_.size(); ++t) {
     const Triangle& corners = topology_->triangles[t];
     const Point &a = points_[Index(corners[0])], &b = points_[Index(corners[1])], &c = points_[Index(corners[2])];
-    boxes_[t] = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+    boxes_[t] = Box(a).extend(b).extend(c);
     const Point ab = b - a, ac = c - a, area = ab.cross(ac);
     volume += area.dot(a - origin);
     const double length = area.norm(), inverse = length > 0 ? 1 / length : 0;
@@ -165,7 +165,7 @@ ClosestPoint PlacedMesh::foot_on_edge(const Point& point, int triangle, const Ne
 
 std::optional<ClosestPoint> PlacedMesh::find(const Point& point, double reach, int hint) const {
   const Box& bounds = tree_.bounds();
-  if (!((point - bounds.low).array() >= -reach).all() || !((bounds.high - point).array() >= -reach).all()) {
+  if (!((point - bounds.min()).array() >= -reach).all() || !((bounds.max() - point).array() >= -reach).all()) {
     return std::nullopt;
   }
   double limit = solid() ? std::numeric_limits<double>::infinity() : reach * reach;

@@ -1,8 +1,6 @@
 #include "sim/collision/spatial_index.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -67,12 +65,11 @@ std::size_t SpatialHash::choose_cells() {
   Box all = boxes_.front();
   double sum = 0;
   for (const Box& box : boxes_) {
-    all.low = all.low.cwiseMin(box.low);
-    all.high = all.high.cwiseMax(box.high);
-    sum += (box.high - box.low).maxCoeff();
+    all.extend(box);
+    sum += box.sizes().maxCoeff();
   }
-  origin_ = all.low;
-  extent_ = all.high - all.low;
+  origin_ = all.min();
+  extent_ = all.sizes();
   const auto count = static_cast<double>(boxes_.size());
   lows_.resize(boxes_.size());
   highs_.resize(boxes_.size());
@@ -81,29 +78,15 @@ std::size_t SpatialHash::choose_cells() {
     inverse_size_ = 1 / size;
     double entries = 0;
     for (std::size_t k = 0; k < boxes_.size(); ++k) {
-      const Cell low = lows_[k] = cell_of(boxes_[k].low), high = highs_[k] = cell_of(boxes_[k].high);
+      const Cell low = lows_[k] = cell_of(boxes_[k].min()), high = highs_[k] = cell_of(boxes_[k].max());
       entries += (high.x - low.x + 1.0) * (high.y - low.y + 1.0) * (high.z - low.z + 1.0);
     }
     if (entries > most_cells_per_box * count) continue;
-    const Cell last = cell_of(all.high);
+    const Cell last = cell_of(all.max());
     count_ = {last.x + 1, last.y + 1, last.z + 1};
     return static_cast<std::size_t>(entries);
   }
 }
-
-namespace {
-
-Box empty_box() {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  return {Eigen::Vector3d::Constant(infinity), Eigen::Vector3d::Constant(-infinity)};
-}
-
-void enclose(Box& box, const Box& other) {
-  box.low = box.low.cwiseMin(other.low);
-  box.high = box.high.cwiseMax(other.high);
-}
-
-}  // namespace
 
 void TriangleTree::build(std::span<const Box> boxes, int leaf_size) {
   order_.resize(boxes.size());
@@ -116,17 +99,14 @@ void TriangleTree::build(std::span<const Box> boxes, int leaf_size) {
 void TriangleTree::split(std::span<const Box> boxes, int first, int count, int leaf_size) {
   const std::size_t node = nodes_.size();
   const bool leaf = count <= leaf_size;
-  nodes_.push_back({empty_box(), 0, first, leaf ? count : 0});
+  nodes_.push_back({Box(), 0, first, leaf ? count : 0});
   if (!leaf) {
-    const auto middle_of = [&](int k) {
-      const Box& box = boxes[static_cast<std::size_t>(k)];
-      return Eigen::Vector3d(0.5 * (box.low + box.high));
-    };
+    const auto middle_of = [&](int k) { return boxes[static_cast<std::size_t>(k)].center(); };
     const auto begin = order_.begin() + first, end = begin + count;
-    Box middles = empty_box();
-    for (auto k = begin; k != end; ++k) enclose(middles, {middle_of(*k), middle_of(*k)});
+    Box middles;
+    for (auto k = begin; k != end; ++k) middles.extend(middle_of(*k));
     Eigen::Index axis = 0;
-    (middles.high - middles.low).maxCoeff(&axis);
+    middles.sizes().maxCoeff(&axis);
     const int half = count / 2;
     std::nth_element(begin, begin + half, end,
                      [&](int k, int l) { return std::pair(middle_of(k)[axis], k) < std::pair(middle_of(l)[axis], l); });
@@ -139,14 +119,13 @@ void TriangleTree::split(std::span<const Box> boxes, int first, int count, int l
 void TriangleTree::refit(std::span<const Box> boxes) {
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     Node& node = nodes_[n];
-    node.box = empty_box();
+    node.box.setEmpty();
     for (int k = node.first; k < node.first + node.count; ++k) {
-      enclose(node.box, boxes[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])]);
+      node.box.extend(boxes[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])]);
     }
     if (node.count > 0 || node.skip == n + 1) continue;
     const std::size_t left = n + 1, right = nodes_[left].skip;
-    enclose(node.box, nodes_[left].box);
-    enclose(node.box, nodes_[right].box);
+    node.box.extend(nodes_[left].box).extend(nodes_[right].box);
   }
 }
 

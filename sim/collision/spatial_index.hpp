@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,14 +13,19 @@
 
 namespace drape {
 
-/// Axis-aligned box [m].
-struct Box {
-  Eigen::Vector3d low, high;
+/// Axis-aligned box [m]. Initially it is empty and intersects no finite box.
+using Box = Eigen::AlignedBox3d;
 
-  [[nodiscard]] bool overlaps(const Box& other) const {
-    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
-  }
-};
+/// Returns the box, enlarged by a margin on each side [m].
+inline Box larger(const Box& box, double margin) { return {box.min().array() - margin, box.max().array() + margin}; }
+
+/// Returns the box around the straight paths of some vertices.
+inline Box box_of_paths(std::span<const int> vertices, const std::vector<Eigen::Vector3d>& from,
+                        const std::vector<Eigen::Vector3d>& to) {
+  Box box;
+  for (const int v : vertices) box.extend(from[static_cast<std::size_t>(v)]).extend(to[static_cast<std::size_t>(v)]);
+  return box;
+}
 
 /// Uniform hash grid that finds overlapping boxes in nearly linear time (Teschner et al. 2003, "Optimized spatial
 /// hashing for collision detection of deformable objects"). Cells are twice the mean size of the boxes, or larger if a
@@ -35,7 +40,7 @@ class SpatialHash {
   template <class Visit>
   void for_overlapping(const Box& box, Visit&& visit) const {
     if (boxes_.empty()) return;
-    const Cell low = cell_of(box.low), high = cell_of(box.high);
+    const Cell low = cell_of(box.min()), high = cell_of(box.max());
     const Rounded rounded = round(box);
     Cell cell;
     for (cell.z = std::max(low.z, 0); cell.z <= std::min(high.z, count_.z - 1); ++cell.z) {
@@ -45,7 +50,7 @@ class SpatialHash {
           const std::size_t slot = slot_of(key);
           for_near(rounded, start_of(slot), start_of(slot + 1), [&](const Entry& entry) {
             if (entry.key != key || !is_first(cell, low, lows_[static_cast<std::size_t>(entry.box)])) return;
-            if (box.overlaps(boxes_[static_cast<std::size_t>(entry.box)])) visit(entry.box);
+            if (box.intersects(boxes_[static_cast<std::size_t>(entry.box)])) visit(entry.box);
           });
         }
       }
@@ -64,7 +69,7 @@ class SpatialHash {
       for_near(rounded, e + 1, start_of(slot_of(key) + 1), [&](const Entry& other) {
         const auto l = static_cast<std::size_t>(other.box);
         if (other.key != key || l == box || !is_first(cell_at(key), lows_[box], lows_[l])) return;
-        if (boxes_[box].overlaps(boxes_[l])) visit(other.box);
+        if (boxes_[box].intersects(boxes_[l])) visit(other.box);
       });
     }
   }
@@ -111,8 +116,8 @@ class SpatialHash {
   [[nodiscard]] Rounded round(const Box& box) const {
     Rounded rounded{};
     for (int axis = 0; axis < 3; ++axis) {
-      rounded[static_cast<std::size_t>(axis)] = static_cast<float>(box.low[axis] - origin_[axis]);
-      rounded[static_cast<std::size_t>(axis) + 3] = static_cast<float>(box.high[axis] - origin_[axis]);
+      rounded[static_cast<std::size_t>(axis)] = static_cast<float>(box.min()[axis] - origin_[axis]);
+      rounded[static_cast<std::size_t>(axis) + 3] = static_cast<float>(box.max()[axis] - origin_[axis]);
     }
     return rounded;
   }
@@ -173,11 +178,7 @@ class TriangleTree {
   /// Updates the positions of the same boxes.
   void refit(std::span<const Box> boxes);
 
-  /// Returns the distance of a point from the root's box [m].
-  [[nodiscard]] double distance(const Eigen::Vector3d& p) const {
-    return std::sqrt(squared_distance(nodes_.front().box, p));
-  }
-  /// Returns the box around all boxes; without boxes it overlaps nothing.
+  /// Returns the box around all boxes; without boxes it is empty.
   [[nodiscard]] const Box& bounds() const { return nodes_.front().box; }
 
   /// Calls visit(k) for every box k that overlaps the given one, and for some others.
@@ -185,7 +186,7 @@ class TriangleTree {
   void for_overlapping(const Box& box, Visit&& visit) const {
     for (std::size_t n = 0; n < nodes_.size();) {
       const Node& node = nodes_[n];
-      if (!node.box.overlaps(box)) {
+      if (!node.box.intersects(box)) {
         n = node.skip;
         continue;
       }
@@ -214,7 +215,7 @@ class TriangleTree {
     };
     std::array<Waiting, most_depth> stack;
     std::size_t height = 0;
-    stack[height++] = {0, squared_distance(nodes_.front().box, point)};
+    stack[height++] = {0, nodes_.front().box.squaredExteriorDistance(point)};
     while (height > 0) {
       const auto [n, squared] = stack[--height];
       // The slack makes sure that both of two distances equal up to rounding are visited.
@@ -227,8 +228,8 @@ class TriangleTree {
       const std::size_t left = n + 1;
       if (left == node.skip) continue;  // an empty tree
       const std::size_t right = nodes_[left].skip;
-      Waiting near{left, squared_distance(nodes_[left].box, point)};
-      Waiting far{right, squared_distance(nodes_[right].box, point)};
+      Waiting near{left, nodes_[left].box.squaredExteriorDistance(point)};
+      Waiting far{right, nodes_[right].box.squaredExteriorDistance(point)};
       if (far.squared < near.squared) std::swap(near, far);
       stack[height++] = far;
       stack[height++] = near;
@@ -245,14 +246,6 @@ class TriangleTree {
   static constexpr std::size_t most_depth = 128;  // enough for any int count of boxes, with two waiting per level
 
   void split(std::span<const Box> boxes, int first, int count, int leaf_size);
-  static double squared_distance(const Box& box, const Eigen::Vector3d& p) {
-    double sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double out = std::max({box.low[axis] - p[axis], p[axis] - box.high[axis], 0.0});
-      sum += out * out;
-    }
-    return sum;
-  }
 
   std::vector<Node> nodes_;
   std::vector<int> order_;

@@ -354,10 +354,8 @@ bool BodyContacts::is_clear(const Vertices& target) const {
     return {middle - half, middle + half};
   };
   const Box from = turned(*world_, start_.pose), to = turned(target, end_.pose);
-  const double reach = 2 * terms_.distance;
-  const Box way{from.low.cwiseMin(to.low).array() - reach, from.high.cwiseMax(to.high).array() + reach};
-  const Box &body = start_.mesh->tree().bounds(), &moved = end_.mesh->tree().bounds();
-  return !way.overlaps({body.low.cwiseMin(moved.low), body.high.cwiseMax(moved.high)});
+  const Box way = larger(from.merged(to), 2 * terms_.distance);
+  return !way.intersects(start_.mesh->tree().bounds().merged(end_.mesh->tree().bounds()));
 }
 
 void BodyContacts::find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,

@@ -111,8 +111,8 @@ TEST(TriangleTree, FindsAllThatOverlapsBeforeAndAfterItMoves) {
   TriangleTree tree;
   for (int round = 0; round < 2; ++round) {
     for (Box& box : boxes) {
-      box.low = Point(place(random), place(random), place(random));
-      box.high = box.low + Point(size(random), size(random), size(random));
+      box.min() = Point(place(random), place(random), place(random));
+      box.max() = box.min() + Point(size(random), size(random), size(random));
     }
     if (round == 0) {
       tree.build(boxes);
@@ -122,10 +122,10 @@ TEST(TriangleTree, FindsAllThatOverlapsBeforeAndAfterItMoves) {
     for (const Box& box : boxes) {
       std::vector<int> found, expected;
       tree.for_overlapping(box, [&](int k) {
-        if (boxes[static_cast<std::size_t>(k)].overlaps(box)) found.push_back(k);
+        if (boxes[static_cast<std::size_t>(k)].intersects(box)) found.push_back(k);
       });
       for (int k = 0; k < 300; ++k) {
-        if (boxes[static_cast<std::size_t>(k)].overlaps(box)) expected.push_back(k);
+        if (boxes[static_cast<std::size_t>(k)].intersects(box)) expected.push_back(k);
       }
       std::ranges::sort(found);
       EXPECT_EQ(found, expected);

@@ -24,15 +24,15 @@ TEST(SpatialHash, FindsEveryOverlapOnce) {
     for (int i = 0; i < 300; ++i) {
       const Point low = test::random_point(random);
       const Point size = 0.15 * (test::random_point(random) + Point::Ones());
-      boxes.push_back({low, low + size});
-      if (i % 100 == 0) boxes.back().high += huge * Point(1, 0.5, 1);  // one that reaches far beyond the others
+      boxes.emplace_back(low, low + size);
+      if (i % 100 == 0) boxes.back().max() += huge * Point(1, 0.5, 1);  // one that reaches far beyond the others
     }
     SpatialHash hash;
     hash.build(boxes);
     std::vector<std::pair<int, int>> expected, pairs, queried;
     for (int k = 0; k < 300; ++k) {
       for (int l = k + 1; l < 300; ++l) {
-        if (boxes[static_cast<std::size_t>(k)].overlaps(boxes[static_cast<std::size_t>(l)]))
+        if (boxes[static_cast<std::size_t>(k)].intersects(boxes[static_cast<std::size_t>(l)]))
           expected.emplace_back(k, l);
       }
     }
