@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tuple>
 #include <utility>
+
+#include "sim/bending/bending_energy.hpp"
 
 namespace drape {
 namespace {
@@ -18,27 +19,6 @@ constexpr double least_placed_area = 1e-8;
 // The sum of two unit normals at an edge is shorter than this if the edge turns by more than 150°.
 constexpr double sharpest_fold = 0.5;
 
-/// An edge with its direction in a triangle.
-struct Run {
-  Edge edge;
-  bool forwards;  // from the smaller vertex number to the larger
-  int triangle;
-  Index corner;  // start of the edge
-};
-
-std::vector<Run> sorted_runs(const std::vector<Triangle>& triangles) {
-  std::vector<Run> runs;
-  runs.reserve(3 * triangles.size());
-  for (Index t = 0; t < triangles.size(); ++t) {
-    for (Index c = 0; c < 3; ++c) {
-      const int p = triangles[t][c], q = triangles[t][(c + 1) % 3];
-      runs.push_back({{std::min(p, q), std::max(p, q)}, p < q, static_cast<int>(t), c});
-    }
-  }
-  std::ranges::sort(runs, {}, [](const Run& r) { return std::tuple(r.edge, r.triangle); });
-  return runs;
-}
-
 }  // namespace
 
 MeshTopology::MeshTopology(const std::vector<Triangle>& all, int vertex_count) {
@@ -46,28 +26,28 @@ MeshTopology::MeshTopology(const std::vector<Triangle>& all, int vertex_count) {
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
   }
   across.assign(triangles.size(), {-1, -1, -1});
-  const std::vector<Run> runs = sorted_runs(triangles);
+  const std::vector<EdgeSide> sides = edge_sides(triangles);
+  const auto start_of = [&](const EdgeSide& side) -> Index {  // the corner at which the edge begins
+    const Triangle& t = triangles[Index(side.triangle)];
+    return side.opposite == t[0] ? 1 : side.opposite == t[1] ? 2 : 0;
+  };
+  const auto forwards = [&](const EdgeSide& side) {
+    return triangles[Index(side.triangle)][start_of(side)] == side.edge[0];
+  };
   closed = !triangles.empty();
-  for (Index r = 0; r < runs.size();) {
-    Index end = r;
-    while (end < runs.size() && runs[end].edge == runs[r].edge) ++end;
-    if (end - r == 2) {
-      across[Index(runs[r].triangle)][runs[r].corner] = runs[r + 1].triangle;
-      across[Index(runs[r + 1].triangle)][runs[r + 1].corner] = runs[r].triangle;
+  for (Index first = 0, last = 0; first < sides.size(); first = last) {
+    while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
+    const EdgeSide &a = sides[first], &b = sides[last - 1];
+    if (last - first == 2) {
+      across[Index(a.triangle)][start_of(a)] = b.triangle;
+      across[Index(b.triangle)][start_of(b)] = a.triangle;
     }
-    closed = closed && end - r == 2 && runs[r].forwards != runs[r + 1].forwards;
-    r = end;
+    closed = closed && last - first == 2 && forwards(a) != forwards(b);
   }
-  starts.assign(Index(vertex_count) + 1, 0);
-  for (const Triangle& t : triangles) {
-    for (const int v : t) ++starts[Index(v) + 1];
-  }
-  for (Index v = 1; v < starts.size(); ++v) starts[v] += starts[v - 1];
-  std::vector<int> next(starts.begin(), starts.end() - 1);
-  around.resize(3 * triangles.size());
-  for (Index t = 0; t < triangles.size(); ++t) {
-    for (const int v : triangles[t]) around[Index(next[Index(v)]++)] = static_cast<int>(t);
-  }
+  std::vector<int> corners;
+  corners.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+  around = Incidence(corners, 3, vertex_count);
 }
 
 PlacedMesh::PlacedMesh(std::shared_ptr<const MeshTopology> topology, const Vertices& x, double travel)
@@ -128,8 +108,7 @@ Point PlacedMesh::normal_at(int triangle, const Point& weights) const {
   const Index own = weights[0] != 0 ? 0 : weights[1] != 0 ? 1 : 2;
   const int vertex = corners[own];
   Point sum = Point::Zero();
-  for (int k = topology_->starts[Index(vertex)]; k < topology_->starts[Index(vertex) + 1]; ++k) {
-    const int t = topology_->around[Index(k)];
+  for (const int t : topology_->around.of(vertex)) {
     const Triangle& triple = topology_->triangles[Index(t)];
     const Index at = triple[0] == vertex ? 0 : triple[1] == vertex ? 1 : 2;
     const Point ahead = corner(t, (at + 1) % 3) - corner(t, at), behind = corner(t, (at + 2) % 3) - corner(t, at);

@@ -11,6 +11,7 @@
 #include "drape/sim/mesh.hpp"
 #include "sim/collision/distance.hpp"
 #include "sim/collision/spatial_index.hpp"
+#include "sim/parallel/loops.hpp"
 
 namespace drape {
 
@@ -18,7 +19,7 @@ namespace drape {
 struct MeshTopology {
   std::vector<Triangle> triangles;         ///< with three different vertices
   std::vector<std::array<int, 3>> across;  ///< neighbour across the edge from corner c to c + 1; −1: none
-  std::vector<int> starts, around;         ///< triangles at vertex v start at around[starts[v]]
+  Incidence around;                        ///< triangles at every vertex
   /// True for a closed, oriented mesh: each edge belongs to two triangles that run along it in opposite directions.
   bool closed = false;
 
