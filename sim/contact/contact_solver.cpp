@@ -508,17 +508,20 @@ void ContactSolver::rebound(bool instantaneous, Vertices& v) const {
       if (instantaneous && now > most) give_velocity(contact, (most - now) * n, v);
       continue;
     }
-    double compliance = 0;
-    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
-      compliance += contact.weights[i] * contact.weights[i] / system_.cloth.masses[contact.vertices[i]];
-    }
-    const double later = instantaneous ? flight_.h / 2 * contact.weight() * flight_.gravity.dot(n) : 0;
+    Eigen::Vector3d rubbed = Eigen::Vector3d::Zero();
     if (flies_freely(contact)) {
+      double compliance = 0;
+      for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
+        compliance += contact.weights[i] * contact.weights[i] / system_.cloth.masses[contact.vertices[i]];
+      }
+      rubbed = flight_.h * compliance * (contact.force - contact.force.dot(n) * n);
+      const double later = instantaneous ? flight_.h / 2 * contact.weight() * flight_.gravity.dot(n) : 0;
       bounce.turned = bounce.leaves + later - now;  // independent of the gap that the solve left
     } else {
+      // The solve has rubbed with all of its normal force, which the springs have spread over other vertices as well.
       bounce.turned = std::max(0.0, bounce.struck * contact.restitution / (1 + contact.restitution) - now);
+      bounce.struck = bounce.turned;
     }
-    const Eigen::Vector3d rubbed = flight_.h * compliance * (contact.force - contact.force.dot(n) * n);
     give_velocity(contact, change_by(bounce, contact, slip, rubbed), v);
   }
 }
