@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tests/contact/contact_setup.hpp"
 #include "tests/support/audited_run.hpp"
@@ -118,6 +119,36 @@ TEST_P(Impact, NothingPassesABoxThatIsThrownAtIt) {
   const AuditedRun audited = audit_run(s, std::lround(0.5 / s.step));
   EXPECT_EQ(audited.with_passages + audited.with_crossings, 0) << lines(audited.first);
   EXPECT_EQ(audited.deepest, 0);
+}
+
+TEST_P(Impact, AStiffSheetThatReboundsWithFrictionGainsNoEnergy) {
+  constexpr double friction = 0.3, restitution = 0.5, radius = 0.25;
+  const Sphere ball{.center = Vector3d(0, 0, -radius),
+                    .radius = radius,
+                    .thickness = distance,
+                    .friction = friction,
+                    .restitution = restitution};
+  Body box = solved_box({0.5, 0.5, 0.2}, 0);
+  box.friction = friction;
+  box.restitution = restitution;
+  Mesh sheet = level_square(1, 12, 0);
+  const auto turn = Eigen::AngleAxisd(0.6, Vector3d(1, 0.8, 0).normalized());
+  sheet.positions = (sheet.positions * turn.toRotationMatrix().transpose()).eval();
+  sheet.positions.col(2).array() += 0.05 - sheet.positions.col(2).minCoeff();
+  for (const auto& [name, obstacle] : {std::pair("ball", Effect(ball)), std::pair("box", Effect(box)),
+                                       std::pair("ground", Effect(solved_ground(friction, restitution)))}) {
+    for (const double step : {0.01, 0.02}) {
+      SimulationSettings s = settings(plain_sheet(sheet, 1800), step);
+      s.cloth.velocities.rowwise() = RowVector3d(-1, 0, -4);
+      s = divided(s);
+      // The energy of an explicit method oscillates by a part of (hω)².
+      if (is_explicit(s.integrator.method)) s.integrator.substeps = 2 * s.integrator.substep_count();
+      s.effects.add(obstacle);
+      const AuditedRun audited = audit_run(s, std::lround(0.4 / step));
+      const double kinetic = 0.5 * s.cloth.masses.sum() * s.cloth.velocities.row(0).squaredNorm();
+      EXPECT_LT(audited.rise.rise, 0.01 * kinetic) << name << ", " << step;
+    }
+  }
 }
 
 }  // namespace
