@@ -80,7 +80,7 @@ struct OutputFormat {
   std::string made_by;    ///< library that writes it, with its version; empty: drape itself
   std::string packages;   ///< Debian packages to install if it fails, separated by spaces
   std::variant<FilmMaker<Image>, FrameMaker<Image>, FilmMaker<Frame>, FrameMaker<Frame>, OfSteps> make;
-  std::vector<const char*> beside = {};  ///< possible companion files of NAME.EXT: ".obj" is NAME.obj, see file_beside()
+  std::vector<const char*> beside = {};  ///< possible companion files of NAME.EXT: ".obj" is NAME.obj
 
   /// Returns true if it takes images, so that frames must be drawn.
   [[nodiscard]] bool drawn() const;
