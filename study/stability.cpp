@@ -150,8 +150,8 @@ StabilityMap empty_map(StepMethod method, StabilityAxis axis, const StabilityDet
 std::vector<StabilityLimit> empty_borders() {
   std::vector<StabilityLimit> borders;
   for (const double stiffness : {1e-2, 1.0, 1e2, 1e4, 1e6, 1e8}) {
-    for (const Method method : {Method::semi_implicit, Method::verlet}) {
-      borders.push_back({method, StabilityAxis::springs, stiffness});
+    for (const StepMethod method : step_methods) {
+      if (is_explicit(method.method)) borders.push_back({method, StabilityAxis::springs, stiffness});
     }
   }
   for (const StepMethod method : step_methods) {
