@@ -86,13 +86,14 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   }
   books_.end(point_);
   divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
+  system_.move(state, &point_.x);
   state.contact_forces.clear();
-  // An unconverged solve does not determine a bounce well enough to give it energy.
+  // An unconverged solve does not determine a bounce well enough to give it energy. A bounce changes the velocity after
+  // the step, and no filter moves the cloth by it.
   if (touches && report.converged) {
     contact_->rebound(of_the_moment_, state.v);
     state.contact_forces = contact_->forces();
   }
-  system_.move(state, &point_.x);
   system_.correct(state);
   return report;
 }
