@@ -44,10 +44,7 @@ MeshTopology::MeshTopology(const std::vector<Triangle>& all, int vertex_count) {
     }
     closed = closed && last - first == 2 && forwards(a) != forwards(b);
   }
-  std::vector<int> corners;
-  corners.reserve(3 * triangles.size());
-  for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
-  around = Incidence(corners, 3, vertex_count);
+  around = Incidence(triangles, vertex_count);
 }
 
 PlacedMesh::PlacedMesh(std::shared_ptr<const MeshTopology> topology, const Vertices& x, double travel)

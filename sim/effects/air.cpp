@@ -44,9 +44,7 @@ class AirForce final : public Force {
     }
     slip_.resize(cloth.vertex_count(), 3);
     if (threads_.count() == 1) return;
-    std::vector<int> corners;
-    for (const Triangle& t : triangles_) corners.insert(corners.end(), t.begin(), t.end());
-    around_ = Incidence(corners, 3, cloth.vertex_count());
+    around_ = Incidence(triangles_, cloth.vertex_count());
     thirds_.resize(triangle_count(), 3);
   }
 

@@ -192,12 +192,23 @@ class Incidence {
     }
   }
 
+  /// Lists the triangles at every vertex.
+  Incidence(const std::vector<std::array<int, 3>>& triangles, int vertex_count)
+      : Incidence(corners_of(triangles), 3, vertex_count) {}
+
   [[nodiscard]] std::span<const int> of(Eigen::Index vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
     return {things_.data() + begin_[v], begin_[v + 1] - begin_[v]};
   }
 
  private:
+  static std::vector<int> corners_of(const std::vector<std::array<int, 3>>& triangles) {
+    std::vector<int> corners;
+    corners.reserve(3 * triangles.size());
+    for (const std::array<int, 3>& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+    return corners;
+  }
+
   std::vector<std::size_t> begin_;  // start of each vertex's items, then the end of the last
   std::vector<int> things_;
 };
