@@ -197,7 +197,7 @@ std::vector<std::string> warnings(const RunResult& result) {
   }
   if (const auto rise = result.statistics.energy_rise(); rise && rise->notable()) {
     found.push_back(fmt::format(
-        "the cloth's energy rose by {:.2g} J with nothing that gives any, {:.2g} times all that it ever had: omit "
+        "the cloth's energy rose by {:.2g} J with nothing that gives any, {:.2g} of all that it ever had: omit "
         "[integrator], or take a shorter [time] step",
         rise->energy, rise->of_available));
   }

@@ -12,22 +12,25 @@ namespace drape {
 
 void EnergyRise::begin(const Simulation& simulation) {
   watches_ = simulation.only_loses_energy();
+  from_start_ = simulation.has_push();
+  every_ = is_explicit(simulation.settings().integrator.method) ? between_looks : 1;
   if (watches_ && !first_) note(simulation.energies());
 }
 
 void EnergyRise::after_step(const Simulation& simulation, const StepReport&, double) {
-  if (watches_) note(simulation.energies());
+  if (watches_ && simulation.state().step % every_ == 0) note(simulation.energies());
 }
 
 void EnergyRise::replay(const StepRow& row, double, double) {
   if (row.step == 0) first_ = row.energies;
-  note(row.energies);
+  if (row.step % every_ == 0) note(row.energies);
 }
 
 void EnergyRise::note(const Energies& now) {
   if (!first_) first_ = now;
   available_ = std::max(available_, first_->total() - now.gravity);
-  rise_ = std::max(rise_, now.total() - first_->total());
+  least_ = from_start_ ? first_->total() : std::min(least_, now.total());
+  rise_ = std::max(rise_, now.total() - least_);
 }
 
 std::optional<EnergyRise::Rise> EnergyRise::rise() const {

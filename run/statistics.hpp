@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,8 +28,8 @@ class StepObserver {
   virtual void after_step(const Simulation& simulation, const StepReport& report, double seconds) = 0;
 };
 
-/// Monitor of the total energy of a cloth that nothing feeds with energy. Contact that is corrected after a step, and
-/// not solved in it, can create energy. The monitor does not change the motion.
+/// Monitor of the total energy of a cloth that nothing feeds with energy. An impact in a long step can create energy.
+/// The monitor does not change the motion.
 class EnergyRise final : public StepObserver {
  public:
   void begin(const Simulation& simulation) override;
@@ -36,9 +37,9 @@ class EnergyRise final : public StepObserver {
   /// Records a step of an earlier run, see StepObserver.
   void replay(const StepRow& row, double time, double seconds) override;
 
-  /// The largest rise of the total energy above that at the start [J], and its share of the available energy. Available
-  /// are the kinetic and elastic energy at the start, and the weight times the fall of the centre of mass. The
-  /// potential of an obstacle's push is left out of both, which can only make them smaller.
+  /// The largest rise of the total energy above its least value before [J], and its share of the available energy.
+  /// Available are the kinetic and elastic energy at the start, and the weight times the fall of the centre of mass. If
+  /// an obstacle pushes with a force, its potential is left out, and the rise is that above the start.
   struct Rise {
     double energy, of_available;
     /// Returns true if the rise exceeds 1 % of the available energy, more than a step's tolerance explains.
@@ -50,9 +51,13 @@ class EnergyRise final : public StepObserver {
  private:
   void note(const Energies& now);
 
-  bool watches_ = false;
-  std::optional<Energies> first_;    // energies at the start
-  double available_ = 0, rise_ = 0;  // [J]
+  // Steps of explicit methods between two looks, as an energy costs as much as a step. A rise lasts for longer.
+  static constexpr std::int64_t between_looks = 8;
+
+  bool watches_ = false, from_start_ = false;
+  std::int64_t every_ = 1;                                                             // number of steps
+  std::optional<Energies> first_;                                                      // energies at the start
+  double least_ = std::numeric_limits<double>::infinity(), available_ = 0, rise_ = 0;  // [J]
 };
 
 /// Estimates of the solver error of a run's steps, and of the residual_force force on a cloth at rest. The estimates do

@@ -290,8 +290,10 @@ Energies Simulation::energies() const { return motion_->energies(); }
 std::vector<Energies> Simulation::piece_energies() const { return motion_->piece_energies(); }
 bool Simulation::only_loses_energy() const {
   const System& system = *motion_->system;
-  const bool touches = !system.filters.empty() || !system.contacts.empty();
-  return touches && !is_explicit(settings().integrator.method) && system.only_loses_energy();
+  return (!system.filters.empty() || !system.contacts.empty()) && system.only_loses_energy();
+}
+bool Simulation::has_push() const {
+  return std::ranges::any_of(motion_->system->forces, [](const auto& force) { return force->of_contact(); });
 }
 double Simulation::residual() const {
   return motion_->said([](Scheme& scheme) { return scheme.residual(); });

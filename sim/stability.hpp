@@ -20,6 +20,10 @@ namespace drape {
 /// value is cached, as a scene is checked before it is simulated.
 double safe_step(const System& system);
 
+/// Ratio of safe_step() to a step whose energy varies little. At the limit K + E of an oscillation varies much, and
+/// impacts turn some of that into a gain.
+inline constexpr double calm_ratio = 1.2;
+
 /// Returns √λ_max(M⁻¹L) of the springs and pairs alone, as in safe_step() [1/s].
 double highest_frequency(const System& system);
 

@@ -288,7 +288,7 @@ void install_effects(const SimulationSettings& settings, std::vector<double>* ef
   // Explicit steps have no other contact. Implicit steps need this filter to keep their contacts after other filters.
   const bool explicitly = is_explicit(settings.integrator.method);
   if (!explicitly && system.filters.empty()) return;
-  system.filters.push_back(std::make_unique<ImpulseContact>(system.contacts, system.cloth, system.gravity));
+  system.filters.push_back(std::make_unique<ImpulseContact>(system));
   system.filters.back()->set_stop(stop);
   if (explicitly) system.contacts.clear();
 }

@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <compare>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "drape/sim/cloth.hpp"
 #include "drape/sim/mesh.hpp"
 #include "drape/sim/tracks.hpp"
 
@@ -36,15 +38,17 @@ struct ContactConstraint {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();   ///< the obstacle's share of d at the end of the step [m]
   Eigen::Vector3d carried = Eigen::Vector3d::Zero();  ///< change of the obstacle's share of d in the step [m]
   Eigen::Vector3d start = Eigen::Vector3d::Zero();    ///< d at the start of the step, with the same weights [m]
-  double distance = 0;                                ///< minimum n·d at the end of the step [m]
-  double friction = 0;                                ///< Coulomb's coefficient µ
-  double restitution = 0;                             ///< ratio of separation to impact speed
-  double beyond = 0;                                  ///< additional gap at the end of the step due to a bounce [m]
-  bool collides = false;  ///< true if the features pass through each other on straight paths
-  bool sews = false;      ///< true for a tie of a seam: a rope, or a weld
-  bool welds = false;     ///< true: d(x) = 0 instead, at the end of the step and in every direction
-  double radius = -1;     ///< limit of the friction force, µ times a normal force [N]; negative: unknown
-  double stiffness = 0;   ///< penalty κ of the augmented Lagrangian [N/m]
+  /// Distance of the features at the start of the step, if they may turn around each other in it [m].
+  double before = -std::numeric_limits<double>::infinity();
+  double distance = 0;     ///< minimum n·d at the end of the step [m]
+  double friction = 0;     ///< Coulomb's coefficient µ
+  double restitution = 0;  ///< ratio of separation to impact speed
+  double beyond = 0;       ///< additional gap at the end of the step due to a bounce [m]
+  bool collides = false;   ///< true if the features pass through each other on straight paths
+  bool sews = false;       ///< true for a tie of a seam: a rope, or a weld
+  bool welds = false;      ///< true: d(x) = 0 instead, at the end of the step and in every direction
+  double radius = -1;      ///< limit of the friction force, µ times a normal force [N]; negative: unknown
+  double stiffness = 0;    ///< penalty κ of the augmented Lagrangian [N/m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< multiplier: the force on d [N]
 
   /// Returns Σ weights·x over the cloth's vertices [m].
@@ -61,14 +65,35 @@ struct ContactConstraint {
     return sum;
   }
   /// Returns true if free vertices carry enough of the weights. Otherwise they would have to move far.
-  [[nodiscard]] bool can_move(const std::vector<char>& free) const {
+  /// @param inverse_masses see inverse_masses()
+  [[nodiscard]] bool can_move(const std::vector<double>& inverse_masses) const {
     constexpr double least_free = 0.25;
     double moved = 0, all = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       all += std::abs(weights[i]);
-      if (free[static_cast<std::size_t>(vertices[i])] != 0) moved += std::abs(weights[i]);
+      if (inverse_masses[static_cast<std::size_t>(vertices[i])] != 0) moved += std::abs(weights[i]);
     }
     return moved > 0 && moved >= least_free * all;
+  }
+  /// Returns the velocity of d per impulse on d, Σ weights²/m [1/kg].
+  [[nodiscard]] double compliance(const std::vector<double>& inverse_masses) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      sum += weights[i] * weights[i] * inverse_masses[static_cast<std::size_t>(vertices[i])];
+    }
+    return sum;
+  }
+  /// Adds weights/m·impulse to the velocities, or to positions for an impulse in kg·m.
+  void push(const std::vector<double>& inverse_masses, const Eigen::Vector3d& impulse, Vertices& to) const {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      const double share = weights[i] * inverse_masses[static_cast<std::size_t>(vertices[i])];
+      if (share != 0) to.row(vertices[i]) += share * impulse.transpose();
+    }
+  }
+  /// Returns the minimum n·d at the end of the step that its start can keep without a push: where features turn around
+  /// each other, the plane across the normal at the end may cut off their start.
+  [[nodiscard]] double possible_distance() const {
+    return std::min(distance, std::max(0.0, start.dot(normal)) + std::max(0.0, distance - before));
   }
   /// Returns true if one of the features belongs to an obstacle.
   [[nodiscard]] bool with_obstacle() const { return std::abs(weight()) > 0.5; }
@@ -188,17 +213,29 @@ struct FreeFlight {
   Vertices mean;                                      ///< mean velocities over the step [m/s]
   Vertices target;                                    ///< positions at the end of the step [m]
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²]
+  Eigen::VectorXd pull;                               ///< of the springs at each vertex, see spring_pull() [1/s²]
   double h = 0;                                       ///< step length [s]
 };
+
+/// Returns 1/m of each vertex, 0 of pins [1/kg].
+std::vector<double> inverse_masses(const Cloth& cloth);
+
+/// Returns Σ k/m over the springs at each vertex [1/s²].
+Eigen::VectorXd spring_pull(const std::vector<Spring>& springs, const Eigen::VectorXd& masses);
 
 /// Rebound by Newton's law of restitution: features arrive at the speed s and leave at e·s, on parabolas under gravity.
 /// With the mean velocity w of a step, the velocity at the time t is w + (t − h/2)·g. A vertex in free flight rises to
 /// e² of its height for any step length. Springs add an error of the order of h.
+///
+/// With h² Σk/m > 1/8 at a vertex, springs change its way within the step, and moving it along the parabola strains
+/// them: the cloth would gain energy in each impact. Such stiff cloth ends the step at the obstacle and leaves with
+/// e·s, limited by Poisson's law to e times the change of velocity that stopped it.
 struct Bounce {
   double gap = 0;     ///< gap at the end of the step in excess of the contact distance [m]
-  double leaves = 0;  ///< mean velocity after the rebound [m/s]
+  double leaves = 0;  ///< mean velocity after the rebound; of stiff cloth e·s [m/s]
   double turned = 0;  ///< excess of `leaves` over the mean velocity of this step [m/s]
   double struck = 0;  ///< change of speed at impact, s + e·s [m/s]
+  bool stiff = false;
 };
 
 /// Returns the bounce of a contact. All zero if the rebound is slower than the forces push the features back together
@@ -206,10 +243,11 @@ struct Bounce {
 Bounce bounce_of(const ContactConstraint& contact, const FreeFlight& flight);
 
 /// Returns the change of the velocity of d at the end of a step with a bounce [m/s]. It acts along the normal, plus
-/// Coulomb friction of at most µ·struck.
+/// Coulomb friction of at most µ·struck. Of stiff cloth, friction is that of the rebound alone: the step has rubbed
+/// with all of its normal force, which the springs have spread over other vertices as well.
 /// @param slip   velocity of d relative to the obstacle at the end of the step [m/s]
-/// @param rubbed change across the normal that friction has already made [m/s]
+/// @param pushed change by the contact's force in the step [m/s]
 Eigen::Vector3d change_by(const Bounce& bounce, const ContactConstraint& contact, const Eigen::Vector3d& slip,
-                          const Eigen::Vector3d& rubbed);
+                          const Eigen::Vector3d& pushed);
 
 }  // namespace drape

@@ -73,7 +73,7 @@ constexpr double regularisation = 1e-6;
 ContactPreconditioner::ContactPreconditioner(int vertex_count) : at_vertex_(static_cast<Index>(vertex_count)) {}
 
 void ContactPreconditioner::set(std::span<const ContactConstraint> contacts, std::vector<HeldDirection> held,
-                                const std::vector<char>& free) {
+                                const std::vector<double>& inverse_masses) {
   held_ = std::move(held);
   for (const Row& row : rows_of_) {
     for (Index i = 0; i < static_cast<Index>(row.count); ++i) at_vertex_[static_cast<Index>(row.vertices[i])].clear();
@@ -86,7 +86,7 @@ void ContactPreconditioner::set(std::span<const ContactConstraint> contacts, std
     double squared = 0;
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
       const auto vertex = static_cast<Index>(contact.vertices[i]);
-      if (free[vertex] == 0 || contact.weights[i] == 0) continue;
+      if (inverse_masses[vertex] == 0 || contact.weights[i] == 0) continue;
       row.vertices[static_cast<Index>(row.count)] = contact.vertices[i];
       row.entries[static_cast<Index>(row.count++)] = contact.weights[i] * held_row.direction;
       squared += contact.weights[i] * contact.weights[i];

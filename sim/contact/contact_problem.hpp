@@ -69,8 +69,9 @@ class ContactPreconditioner {
   explicit ContactPreconditioner(int vertex_count);
 
   /// Sets the constrained rows.
-  /// @param free nonzero for vertices that can move
-  void set(std::span<const ContactConstraint> contacts, std::vector<HeldDirection> held, const std::vector<char>& free);
+  /// @param inverse_masses see inverse_masses()
+  void set(std::span<const ContactConstraint> contacts, std::vector<HeldDirection> held,
+           const std::vector<double>& inverse_masses);
 
   /// Computes solution = P·vector, where solve(a, b) sets b = H⁻¹·a. The result is zero on pins if both inputs are.
   template <class Solve>

@@ -41,19 +41,14 @@ double longest(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }
 ContactSolver::ContactSolver(const System& system)
     : system_(system),
       preconditioner_(system.cloth.vertex_count()),
-      free_(static_cast<Index>(system.cloth.vertex_count()), 1),
+      inverse_masses_(inverse_masses(system.cloth)),
       gradient_(Vertices::Zero(system.cloth.vertex_count(), 3)),
       direction_(gradient_),
       residual_(gradient_),
       preconditioned_(gradient_),
       search_(gradient_),
       product_(gradient_) {
-  for (const int pin : system.cloth.pins) free_[static_cast<Index>(pin)] = 0;
-  pull_.resize(free_.size());
-  for (const Spring& s : system.springs) {
-    pull_[static_cast<Index>(s.i)] += s.stiffness;
-    pull_[static_cast<Index>(s.j)] += s.stiffness;
-  }
+  flight_.pull = spring_pull(system.springs, system.cloth.masses);
   trial_.x = trial_.gradient = gradient_;
   for (const Spring& spring : system.cloth.springs) {
     longest_move_ += spring.rest_length / static_cast<double>(system.cloth.springs.size());
@@ -143,10 +138,10 @@ void ContactSolver::find(const Vertices& target, bool turn) {
     }
     system_.contacts[static_cast<Index>(source)]->find(target, source, held_, contacts_);
   }
-  std::erase_if(contacts_, [&](const ContactConstraint& contact) { return !contact.can_move(free_); });
+  std::erase_if(contacts_, [&](const ContactConstraint& contact) { return !contact.can_move(inverse_masses_); });
   auto known = before_.begin();
   for (ContactConstraint& contact : contacts_) {
-    if (contact.restitution > 0 && flies_freely(contact)) contact.beyond = bounce_of(contact, flight_).gap;
+    contact.beyond = bounce_of(contact, flight_).gap;
     while (known != before_.end() && known->key < contact.key) ++known;
     if (known == before_.end() || known->key != contact.key) continue;
     if (turn) {
@@ -170,7 +165,7 @@ void ContactSolver::set_stiffness(const ContactProblem& problem) {
     double compliance = 0;
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
       const int vertex = contact.vertices[i];
-      if (free_[static_cast<Index>(vertex)] == 0) continue;
+      if (inverse_masses_[static_cast<Index>(vertex)] == 0) continue;
       compliance += contact.weights[i] * contact.weights[i] / problem.stiffness(vertex, contact.normal);
     }
     contact.stiffness = (contact.welds ? weld_stiffness : stiffness_ratio(problem.exact())) / compliance;
@@ -289,7 +284,7 @@ void ContactSolver::find_direction(ContactProblem& problem, const Vertices& x) {
     if (std::ranges::all_of(solved, [](char one) { return one != 0; })) return;
     problem.linearise(x, factor->share(), damping_);
   }
-  preconditioner_.set(contacts_, held_directions(solved), free_);
+  preconditioner_.set(contacts_, held_directions(solved), inverse_masses_);
   iterate_linearly(problem, [&](const Vertices& a, Vertices& b) {
     if (factor != nullptr) {
       factor->solve_again(a, b);
@@ -433,7 +428,7 @@ void ContactSolver::move_with_obstacles(Vertices& x) {
     const Eigen::RowVector3d way = -contact.carried.transpose() / contact.weight();
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
       const int vertex = contact.vertices[i];
-      if (free_[static_cast<Index>(vertex)] != 0) x.row(vertex) = start_.row(vertex) + way;
+      if (inverse_masses_[static_cast<Index>(vertex)] != 0) x.row(vertex) = start_.row(vertex) + way;
     }
   }
   find(x, true);
@@ -475,54 +470,24 @@ bool ContactSolver::carried() const {
   return std::ranges::any_of(contacts_, [](const ContactConstraint& contact) { return !contact.carried.isZero(0); });
 }
 
-bool ContactSolver::flies_freely(const ContactConstraint& contact) const {
-  for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
-    const int vertex = contact.vertices[i];
-    if (flight_.h * flight_.h * pull_[static_cast<Index>(vertex)] > system_.cloth.masses[vertex]) return false;
-  }
-  return true;
-}
-
-void ContactSolver::give_velocity(const ContactConstraint& contact, const Eigen::Vector3d& change, Vertices& v) const {
-  double compliance = 0;
-  const auto for_free = [&](const auto& use) {
-    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
-      const int vertex = contact.vertices[i];
-      if (free_[static_cast<Index>(vertex)] != 0) use(vertex, contact.weights[i] / system_.cloth.masses[vertex], i);
-    }
-  };
-  for_free([&](int, double share, Index i) { compliance += contact.weights[i] * share; });
-  for_free([&](int vertex, double share, Index) { v.row(vertex) += share / compliance * change.transpose(); });
-}
-
 void ContactSolver::rebound(bool instantaneous, Vertices& v) const {
   for (const ContactConstraint& contact : contacts_) {
     const Eigen::Vector3d& n = contact.normal;
     if (contact.welds || !(contact.force.dot(n) > 0)) continue;
+    const double compliance = contact.compliance(inverse_masses_);
+    const auto change = [&](const Eigen::Vector3d& by) { contact.push(inverse_masses_, by / compliance, v); };
     const Eigen::Vector3d drift = contact.carried / flight_.h, slip = contact.gather(v) + drift;
     const double now = slip.dot(n);
     Bounce bounce = bounce_of(contact, flight_);
-    if (!(bounce.struck > 0)) {
-      // A vertex that slides on a ball moves along a chord: turn its end velocity along the surface again.
-      const double most = std::max(0.0, (contact.gather(flight_.mean) + drift).dot(n));
-      if (instantaneous && now > most) give_velocity(contact, (most - now) * n, v);
-      continue;
-    }
-    Eigen::Vector3d rubbed = Eigen::Vector3d::Zero();
-    if (flies_freely(contact)) {
-      double compliance = 0;
-      for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
-        compliance += contact.weights[i] * contact.weights[i] / system_.cloth.masses[contact.vertices[i]];
-      }
-      rubbed = flight_.h * compliance * (contact.force - contact.force.dot(n) * n);
+    if (bounce.struck > 0) {
       const double later = instantaneous ? flight_.h / 2 * contact.weight() * flight_.gravity.dot(n) : 0;
       bounce.turned = bounce.leaves + later - now;  // independent of the gap that the solve left
-    } else {
-      // The solve has rubbed with all of its normal force, which the springs have spread over other vertices as well.
-      bounce.turned = std::max(0.0, bounce.struck * contact.restitution / (1 + contact.restitution) - now);
-      bounce.struck = bounce.turned;
+      change(change_by(bounce, contact, slip, flight_.h * compliance * contact.force));
+      continue;
     }
-    give_velocity(contact, change_by(bounce, contact, slip, rubbed), v);
+    // A vertex that slides on a ball moves along a chord: turn its end velocity along the surface again.
+    const double most = std::max(0.0, (contact.gather(flight_.mean) + drift).dot(n));
+    if (instantaneous && now > most) change((most - now) * n);
   }
 }
 

@@ -107,10 +107,6 @@ class ContactSolver {
   /// Sets the friction limits of new contacts, or of all.
   void find_radii(const Vertices& x, bool all);
   PointStatus assess(const ContactProblem& problem, const Iterate& point);
-  /// Returns true if the step is short enough for the springs at a contact that its features arrive and leave in free
-  /// flight. Stiffer cloth keeps its solved position and only receives the rebound speed.
-  [[nodiscard]] bool flies_freely(const ContactConstraint& contact) const;
-  void give_velocity(const ContactConstraint& contact, const Eigen::Vector3d& change, Vertices& v) const;
   /// Returns the work of a force that separates features which began too near, if their source does [J].
   [[nodiscard]] double separating_work(const ContactConstraint& contact, const Eigen::Vector3d& force) const;
   /// Returns the largest residual of a contact at x [m].
@@ -134,13 +130,12 @@ class ContactSolver {
 
   const System& system_;
   ContactPreconditioner preconditioner_;
-  std::vector<char> free_;    // nonzero for vertices that can move
-  std::vector<double> pull_;  // total spring stiffness at each vertex [N/m]
-  double longest_move_ = 0;   // limit of a vertex's move in an iteration: the mean edge length [m]
-  double damping_ = 0;        // added to the Hessian, as a fraction of its bound
-  double error_ = 0;          // estimated, of the last solve [m]
-  double concavity_ = 0;      // share of the Hessian's negative eigenvalues
-  bool exact_ = false;        // true if the last solve was of Newton's Hessian
+  std::vector<double> inverse_masses_;  // 0 of pins [1/kg]
+  double longest_move_ = 0;             // limit of a vertex's move in an iteration: the mean edge length [m]
+  double damping_ = 0;                  // added to the Hessian, as a fraction of its bound
+  double error_ = 0;                    // estimated, of the last solve [m]
+  double concavity_ = 0;                // share of the Hessian's negative eigenvalues
+  bool exact_ = false;                  // true if the last solve was of Newton's Hessian
   std::vector<ContactConstraint> contacts_, before_, held_;
   std::vector<Response> responses_;
   FreeFlight flight_;

@@ -99,13 +99,10 @@ void move_rigidly(const std::vector<std::array<int, 4>>& groups, bool all, const
   for (const auto& [root, members] : zones) move_zone(members, x, inverse_masses, velocities);
 }
 
-ImpulseContact::ImpulseContact(std::vector<std::shared_ptr<ContactSource>> sources, const Cloth& cloth,
-                               const Eigen::Vector3d& gravity)
-    : sources_(std::move(sources)) {
-  flight_.gravity = gravity;
-  for (const double mass : cloth.masses) inverse_masses_.push_back(1 / mass);
-  free_.assign(inverse_masses_.size(), 1);
-  for (const int pin : cloth.pins) inverse_masses_[Index(pin)] = free_[Index(pin)] = 0;
+ImpulseContact::ImpulseContact(const System& system)
+    : sources_(system.contacts), inverse_masses_(inverse_masses(system.cloth)) {
+  flight_.gravity = system.gravity;
+  flight_.pull = spring_pull(system.springs, system.cloth.masses);
 }
 
 void ImpulseContact::begin(const State& state, double) { flight_.start_v = state.v; }
@@ -180,12 +177,9 @@ void ImpulseContact::find() {
   }
   auto known = before_.begin();
   for (const ContactConstraint& contact : found_) {
-    if (!contact.can_move(free_)) continue;
-    double compliance = 0;
-    for (Index i = 0; i < Index(contact.count); ++i) {
-      compliance += contact.weights[i] * contact.weights[i] * inverse_masses_[Index(contact.vertices[i])];
-    }
-    Impulse impulse{.contact = contact, .compliance = compliance, .bounce = {}};
+    if (!contact.can_move(inverse_masses_)) continue;
+    Impulse impulse{.contact = contact, .compliance = contact.compliance(inverse_masses_), .bounce = {}};
+    impulse.contact.distance = contact.possible_distance();
     while (known != before_.end() && known->contact.key < contact.key) ++known;
     if (known != before_.end() && known->contact.key == contact.key) {
       // Keep the push, along the new normal.
@@ -200,17 +194,10 @@ void ImpulseContact::find() {
   }
 }
 
-void ImpulseContact::push(const ContactConstraint& contact, const Eigen::Vector3d& change, Vertices& to) const {
-  for (Index i = 0; i < Index(contact.count); ++i) {
-    const double share = contact.weights[i] * inverse_masses_[Index(contact.vertices[i])];
-    if (share != 0) to.row(contact.vertices[i]) += share * change.transpose();
-  }
-}
-
 void ImpulseContact::apply_known() {
   target_ = flight_.target;
   for (const Impulse& impulse : impulses_) {
-    if (!impulse.contact.force.isZero(0)) push(impulse.contact, impulse.contact.force, target_);
+    if (!impulse.contact.force.isZero(0)) impulse.contact.push(inverse_masses_, impulse.contact.force, target_);
   }
 }
 
@@ -241,7 +228,7 @@ void ImpulseContact::solve() {
       const Eigen::Vector3d change = change_of(impulse, missing, slip);
       if (change.isZero(0)) continue;
       contact.force += change;
-      push(contact, change, target_);
+      contact.push(inverse_masses_, change, target_);
       if (impulse.compliance * change.norm() > tolerance_of(contact)) moved = true;
     }
     if (!moved) return;
@@ -315,15 +302,14 @@ void ImpulseContact::finish(Vertices& v) {
     const ContactConstraint& contact = impulse.contact;
     if (contact.force.isZero(0) || contact.welds) continue;
     const Eigen::Vector3d& n = contact.normal;
-    const Eigen::Vector3d drift = contact.carried / flight_.h;
+    const Eigen::Vector3d drift = contact.carried / flight_.h, slip = contact.gather(v) + drift;
+    const auto change = [&](const Eigen::Vector3d& by) { contact.push(inverse_masses_, by / impulse.compliance, v); };
     if (impulse.bounce.struck > 0) {
-      const Eigen::Vector3d rubbed = impulse.compliance / flight_.h * (contact.force - contact.force.dot(n) * n);
-      push(contact, change_by(impulse.bounce, contact, contact.gather(v) + drift, rubbed) / impulse.compliance, v);
+      change(change_by(impulse.bounce, contact, slip, impulse.compliance / flight_.h * contact.force));
       continue;
     }
-    const double unhindered = (contact.gather(flight_.mean) + drift).dot(n), now = (contact.gather(v) + drift).dot(n);
-    const double most = std::max(0.0, unhindered);
-    if (now > most) push(contact, (most - now) / impulse.compliance * n, v);
+    const double most = std::max(0.0, (contact.gather(flight_.mean) + drift).dot(n)), now = slip.dot(n);
+    if (now > most) change((most - now) * n);
   }
   std::erase_if(impulses_,
                 [](const Impulse& impulse) { return impulse.contact.force.isZero(0) || impulse.bounce.struck > 0; });
@@ -337,7 +323,7 @@ void ImpulseContact::finish(Vertices& v) {
       const Eigen::Vector3d change = change_of(impulse, -speed.dot(contact.normal), speed);
       if (change.isZero(0)) continue;
       contact.force += change;
-      push(contact, change, v);
+      contact.push(inverse_masses_, change, v);
       most = std::max(most, impulse.compliance * change.norm());
     }
     if (pass == 0) first = most;

@@ -26,7 +26,10 @@ void move_rigidly(const std::vector<std::array<int, 4>>& groups, bool all, const
 /// are those of ContactSolver. A step that would reach y = x + h·v ends at
 ///   x' = y + Σ wᵢ/m·f,   f along the normal ≥ 0, n·d(x') ≥ distance, one of both an equation, |f across| ≤ µ·(n·f),
 /// the minimum of ½(x' − y)ᵀM(x' − y) under the contacts. Projected Gauss-Seidel finds f [kg·m] one contact at a time.
-/// If this moves vertices, contacts are found again at the new positions until none is missed.
+/// If this moves vertices, contacts are found again at the new positions until none is missed. The start of the step
+/// meets all contacts (ContactConstraint::possible_distance). Otherwise several could exclude every motion, and their
+/// forces would grow without limit. A projection onto a convex set that holds x moves nothing further from x, so
+/// contacts at rest take kinetic energy only.
 ///
 /// End velocities get separate impulses (Andersen 1983, for equality constraints). Features that bear a force do not
 /// approach, under the same friction law. Separating features that were too near moves them but adds no speed.
@@ -37,9 +40,8 @@ void move_rigidly(const std::vector<std::array<int, 4>>& groups, bool all, const
 /// step then counts as not converged.
 class ImpulseContact final : public MotionFilter {
  public:
-  /// @param gravity acceleration on the free parabolas before and after a bounce [m/s²]
-  ImpulseContact(std::vector<std::shared_ptr<ContactSource>> sources, const Cloth& cloth,
-                 const Eigen::Vector3d& gravity);
+  /// @param system with its contacts, springs and gravity
+  explicit ImpulseContact(const System& system);
 
   void begin(const State& state, double time) override;
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
@@ -61,7 +63,6 @@ class ImpulseContact final : public MotionFilter {
   [[nodiscard]] bool violated() const;
   /// Sets the target to the end of free flight, plus the effect of known forces.
   void apply_known();
-  void push(const ContactConstraint& contact, const Eigen::Vector3d& change, Vertices& to) const;
   /// Repeats passes over all contacts until they no longer move.
   void solve();
   /// Returns the change of a contact's force, given its missing distance along the normal and its slip; of a weld,
@@ -77,7 +78,6 @@ class ImpulseContact final : public MotionFilter {
 
   std::vector<std::shared_ptr<ContactSource>> sources_;
   std::vector<double> inverse_masses_;  // 0 on pins [1/kg]
-  std::vector<char> free_;              // nonzero for vertices that can move
   std::vector<Impulse> impulses_, before_;
   std::vector<ContactConstraint> found_, held_;
   const Vertices* x_ = nullptr;

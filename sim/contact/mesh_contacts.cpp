@@ -195,6 +195,7 @@ void SelfContacts::add(const FeaturePair& pair, int source, bool held, std::vect
   if (!touch) return;
   ContactConstraint contact = make(pair.vertices, touch->weights, touch->normal);
   contact.key = key_of(pair, source);
+  contact.before = before;
   contact.distance = distance;
   contact.friction = friction(pair);
   contact.collides = touch->collides;
@@ -436,6 +437,7 @@ void BodyContacts::find_pairs(int source, const std::vector<ContactConstraint>& 
     if (!touch) continue;
     ContactConstraint contact = make(pair.vertices, touch->weights, touch->normal);
     contact.key = key;
+    contact.before = met.before;
     contact.distance = distance;
     contact.collides = touch->collides;
     contacts.push_back(contact);

@@ -73,7 +73,8 @@ MethodChoice choose_method(const SimulationSettings& settings) {
   tried.integrator.method = Method::verlet;
   const System system = make_system(tried);
   const double longest = safe_step(system), ratio = settings.step / longest;
-  const std::int64_t fewest = SubstepGuard::fewest_substeps(settings.step, longest);
+  const double taken = touches(settings) ? longest / calm_ratio : longest;
+  const std::int64_t fewest = SubstepGuard::fewest_substeps(settings.step, taken);
   MethodChoice choice;
   choice.adapts = settings.accuracy.has_value();
   choice.substeps = settings.integrator.substeps.value_or(static_cast<int>(fewest));

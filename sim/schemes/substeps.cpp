@@ -16,7 +16,6 @@ namespace {
 
 // Least numbers of substeps: a change of the acceleration needs two, stiff springs need four of an implicit scheme.
 constexpr std::int64_t fewest_explicit = 2, fewest_solved = 4;
-constexpr double safe_share = 1.2;    // stable substeps per safe one: at the limit an oscillation's energy varies much
 constexpr std::size_t most_kept = 4;  // number of motions
 
 // Errors per change of the acceleration and squared substep, see SubstepScheme; of a first-order substep per kick and
@@ -149,7 +148,7 @@ SubstepScheme::SubstepScheme(const SimulationSettings& settings, std::int64_t fe
       fewest_(fewest_stable) {
   if (is_explicit(integrator_.method)) {
     fewest_ =
-        std::max(fewest_explicit, static_cast<std::int64_t>(std::ceil(safe_share * static_cast<double>(fewest_))));
+        std::max(fewest_explicit, static_cast<std::int64_t>(std::ceil(calm_ratio * static_cast<double>(fewest_))));
   } else {
     fewest_ = std::max(fewest_solved, fewest_);
   }

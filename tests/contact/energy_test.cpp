@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -152,7 +151,8 @@ SimulationSettings make(const Trial& run) {
   // A sheet strained at the start oscillates, and the energy of an explicit method with it, by a part (hω)².
   settings = in_substeps(settings);
   // The energy of an explicit method oscillates by a part of (hω)², more in an initially strained cloth.
-  if (run.method().is_explicit()) settings.step /= run.obstacle() == Obstacle::itself ? 4 : 2;
+  const double ratio = run.method().method == Method::verlet ? calm_ratio : 2;
+  if (run.method().is_explicit()) settings.step /= run.obstacle() == Obstacle::itself ? 4 : ratio;
   return settings;
 }
 

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <utility>
 
+#include "drape/sim/cloth.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
 #include "tests/contact/contact_setup.hpp"
 #include "tests/support/audited_run.hpp"
+#include "tests/support/random.hpp"
 
 namespace drape::test {
 namespace {
@@ -122,6 +124,23 @@ TEST_P(Impact, NothingPassesABoxThatIsThrownAtIt) {
   EXPECT_EQ(audited.deepest, 0);
 }
 
+/// Makes a square sheet of 1 m, turned about an axis and 5 cm above the ground.
+Mesh tilted_sheet(double angle, const Vector3d& axis) {
+  Mesh sheet = level_square(1, 12, 0);
+  const auto turn = Eigen::AngleAxisd(angle, axis.normalized());
+  sheet.positions = (sheet.positions * turn.toRotationMatrix().transpose()).eval();
+  sheet.positions.col(2).array() += 0.05 - sheet.positions.col(2).minCoeff();
+  return sheet;
+}
+
+/// Returns the largest rise of the total energy, relative to the kinetic energy at the start and that of the fall.
+double relative_rise(const SimulationSettings& s, double seconds) {
+  const AuditedRun audited = audit_run(s, std::lround(seconds / s.step));
+  const Cloth& cloth = s.cloth;
+  const double kinetic = 0.5 * cloth.masses.dot(cloth.velocities.rowwise().squaredNorm());
+  return audited.rise.rise / (kinetic + g * cloth.masses.dot(cloth.positions.col(2)));
+}
+
 TEST_P(Impact, AStiffSheetThatReboundsWithFrictionGainsNoEnergy) {
   constexpr double friction = 0.3, restitution = 0.5, radius = 0.25;
   const Sphere ball{.center = Vector3d(0, 0, -radius),
@@ -132,18 +151,14 @@ TEST_P(Impact, AStiffSheetThatReboundsWithFrictionGainsNoEnergy) {
   Body box = solved_box({0.5, 0.5, 0.2}, 0);
   box.friction = friction;
   box.restitution = restitution;
-  Mesh sheet = level_square(1, 12, 0);
-  const auto turn = Eigen::AngleAxisd(0.6, Vector3d(1, 0.8, 0).normalized());
-  sheet.positions = (sheet.positions * turn.toRotationMatrix().transpose()).eval();
-  sheet.positions.col(2).array() += 0.05 - sheet.positions.col(2).minCoeff();
+  const Mesh sheet = tilted_sheet(0.6, {1, 0.8, 0});
   for (const auto& [name, obstacle] : {std::pair("ball", Effect(ball)), std::pair("box", Effect(box)),
                                        std::pair("ground", Effect(solved_ground(friction, restitution)))}) {
     for (const double step : {0.01, 0.02}) {
       for (const bool limited : {false, true}) {
         SimulationSettings s = settings(plain_sheet(sheet, 1800), step);
         s.cloth.velocities.rowwise() = RowVector3d(-1, 0, -4);
-        // The energy of an explicit method oscillates by a part of (hω)².
-        if (is_explicit(s.integrator.method)) s.integrator.substeps = 2 * s.integrator.substep_count();
+        s = calm(s);
         s.effects.add(obstacle);
         if (limited) s.effects.add(StrainLimit{.max_stretch = 1.05});
         const AuditedRun audited = audit_run(s, std::lround(0.4 / step));
@@ -151,6 +166,46 @@ TEST_P(Impact, AStiffSheetThatReboundsWithFrictionGainsNoEnergy) {
         EXPECT_LT(audited.rise.rise, 0.01 * kinetic) << name << ", " << step << ", " << limited;
       }
     }
+  }
+}
+
+TEST_P(Impact, AnElasticReboundGivesBackAtMostWhatItTook) {
+  if (GetParam().method == Method::semi_implicit) GTEST_SKIP() << "the energy oscillates by a part hω, see calm()";
+  Body box = solved_box({0.5, 0.4, 0.25}, 0);
+  box.friction = 0;
+  box.restitution = 1;
+  for (const auto& [name, obstacle] :
+       {std::pair("box", Effect(box)), std::pair("ground", Effect(solved_ground(0, 1)))}) {
+    for (const double stiffness : {18.0, 180.0, 18000.0}) {
+      for (const double step : {0.002, 0.01}) {
+        SimulationSettings s = settings(plain_sheet(tilted_sheet(0.5, {1, 0.3, 0}), stiffness), step);
+        s.cloth.velocities.rowwise() = RowVector3d(1, 0, -4);
+        s = calm(s);
+        s.effects.add(obstacle);
+        EXPECT_LT(relative_rise(s, 0.2), 0.01) << name << ", " << stiffness << ", " << step;
+      }
+    }
+  }
+}
+
+// A cloth thrown onto a thin pole wraps around it, and its layers meet each other and the pole from several sides.
+TEST(JammedCloth, GainsNoEnergy) {
+  for (std::uint64_t number = 0; number < 30; ++number) {
+    Random random(number);
+    const Fabric& fabric = fabrics()[number % fabrics().size()];
+    const Mesh sheet = tilted_sheet(random.between(0.3, 1.4), {1, random.between(-1, 1), 0});
+    SimulationSettings s;
+    s.cloth = make_cloth(sheet, level_square(1, 12, 0), 1, 1, {});
+    share_mass_by_area(fabric.density, s.cloth);
+    stiffen_by_direction(fabric.modulus, s.cloth);
+    s.cloth.velocities.rowwise() = RowVector3d(random.between(-3, 3), 0, -4);
+    s.step = 0.005;
+    s.integrator.method = Method::verlet;
+    s.effects = {Gravity{}};
+    s = calm(s);
+    s.effects.add(solved_box({0.02, 2, 0.02}, 0));
+    s.effects.add(solved_self());
+    EXPECT_LT(relative_rise(s, 0.3), 0.01) << number << ", " << fabric.name;
   }
 }
 

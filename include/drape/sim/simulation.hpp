@@ -82,9 +82,11 @@ class Simulation {
   /// Returns the energies of each of several cloths, in the order of Cloth::pieces. Effects on single cloths and
   /// springs are counted; an elastic energy that belongs to several cloths is not.
   [[nodiscard]] std::vector<Energies> piece_energies() const;
-  /// Returns true if the scheme solves for contact and nothing adds energy, so that the total can only fall; see
+  /// Returns true if the cloth may touch something and nothing adds energy, so that the total can only fall; see
   /// System::only_loses_energy().
   [[nodiscard]] bool only_loses_energy() const;
+  /// Returns true if an obstacle pushes with a force, which stores energy that energies() leaves out.
+  [[nodiscard]] bool has_push() const;
   /// Returns ‖∇g‖ at the end of the last step [N], see Scheme::residual.
   [[nodiscard]] double residual() const;
   /// Returns the estimated error of the last step's solve [m], see Scheme::error.
