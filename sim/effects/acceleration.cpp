@@ -89,7 +89,7 @@ void Field::check(const SimulationSettings& settings, const ProblemSink& problem
       fmt::format(
           "it depends on position, so the largest stable step of {} depends on how steep it is, which a formula does "
           "not reveal: give its 'stiffness_bound' [1/s²], or use method = \"implicit\", \"liu13\" or \"quasi-newton\"",
-          explicit_title(method)));
+          traits_of(method).title));
 }
 
 void Field::install(System& system) const {

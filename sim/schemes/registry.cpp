@@ -52,7 +52,7 @@ std::unique_ptr<Scheme> make_implicit(const IntegratorSettings& settings, const 
 }
 
 std::unique_ptr<StabilityGuard> make_safe_step_guard(const IntegratorSettings& settings, const System& system) {
-  return std::make_unique<SafeStepGuard>(explicit_title(settings.method), system);
+  return std::make_unique<SafeStepGuard>(traits_of(settings.method).title, system);
 }
 
 std::unique_ptr<StabilityGuard> make_implicit_guard(const IntegratorSettings& settings, const System& system) {

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "tests/cli/run_drape.hpp"
 
@@ -40,8 +39,7 @@ TEST(Codecs, AreLoadedOnlyByWhatEncodesVideos) {
   EXPECT_FALSE(loads_codecs(loaded_by(folder, "render --help")));
   EXPECT_FALSE(loads_codecs(loaded_by(folder, "simulate scene.toml --energies energies.csv -o last.obj")));
   EXPECT_FALSE(loads_codecs(loaded_by(folder, "render scene.toml -o last.png")));
-  cv::Mat texture(8, 8, CV_8UC3, cv::Scalar(10, 20, 200));
-  cv::imwrite(folder.path("texture.jpg"), texture);
+  fs::copy_file(DRAPE_SOURCE_DIR "/tests/data/red.jpg", folder.path("texture.jpg"));
   EXPECT_FALSE(loads_codecs(loaded_by(folder, "render scene.toml --set look.texture=texture.jpg -o last.png")));
   EXPECT_FALSE(loads_codecs(loaded_by(folder, "render scene.toml -o film.gif")));
   EXPECT_TRUE(loads_codecs(loaded_by(folder, "render scene.toml -o film.avi")));

@@ -164,9 +164,12 @@ std::filesystem::path data_folder();
 void use_data_folder(const std::filesystem::path& folder);
 
 /// Names of the methods in scenes, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 6> method_names{"semi-implicit", "implicit", "liu13",
-                                                              "quasi-newton",  "verlet",   "auto"};
-static_assert(method_names.size() == method_count + 1);
+inline constexpr auto method_names = [] {
+  std::array<std::string_view, method_count + 1> names;
+  for (std::size_t i = 0; i < method_count; ++i) names[i] = method_traits[i].name;
+  names.back() = "auto";
+  return names;
+}();
 
 inline std::string method_name(Method method) { return std::string(method_names[static_cast<std::size_t>(method)]); }
 

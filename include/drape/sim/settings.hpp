@@ -45,13 +45,29 @@ enum class Method {
 /// Number of methods that compute a step: all except `automatic`, which selects one of them.
 inline constexpr std::size_t method_count = static_cast<std::size_t>(Method::automatic);
 
-/// Returns true if a method computes a step from forces alone. It minimises nothing and has a largest stable step.
-inline constexpr bool is_explicit(Method method) { return method == Method::semi_implicit || method == Method::verlet; }
+/// Properties of a method that computes a step.
+struct MethodTraits {
+  std::string_view name;        ///< in scenes
+  std::string_view title = {};  ///< of an explicit method, in a sentence
+  int order = 0;                ///< order of convergence of an explicit method; 0: implicit, and of the scheme's order
+};
 
-/// Returns the name of an explicit method in a sentence.
-inline constexpr std::string_view explicit_title(Method method) {
-  return method == Method::verlet ? "velocity Verlet" : "semi-implicit Euler";
+/// The methods, in the order of the enumeration.
+inline constexpr std::array<MethodTraits, method_count> method_traits{{
+    {.name = "semi-implicit", .title = "semi-implicit Euler", .order = 1},
+    {.name = "implicit"},
+    {.name = "liu13"},
+    {.name = "quasi-newton"},
+    {.name = "verlet", .title = "velocity Verlet", .order = 2},
+}};
+
+/// @param method not `automatic`
+inline constexpr const MethodTraits& traits_of(Method method) {
+  return method_traits[static_cast<std::size_t>(method)];
 }
+
+/// Returns true if a method computes a step from forces alone. It minimises nothing and has a largest stable step.
+inline constexpr bool is_explicit(Method method) { return method != Method::automatic && traits_of(method).order > 0; }
 
 /// Time integration of an implicit method.
 enum class TimeScheme {
@@ -106,7 +122,9 @@ inline constexpr auto step_methods = [] {
 }();
 
 /// Returns the order of convergence: the error of a motion falls with this power of the step.
-inline constexpr int order_of(StepMethod how) { return how.method == Method::verlet ? 2 : traits_of(how.scheme).order; }
+inline constexpr int order_of(StepMethod how) {
+  return is_explicit(how.method) ? traits_of(how.method).order : traits_of(how.scheme).order;
+}
 
 /// Maximum number of substeps per step of an explicit method.
 inline constexpr int most_substeps = 1 << 10;
