@@ -56,11 +56,11 @@ inline constexpr std::array all_contact_methods{
     NamedMethod{{Method::liu13, TimeScheme::sdirk2}, "Liu13Sdirk2"},
 };
 
-/// Divides the steps of an explicit method into the fewest stable substeps.
-inline SimulationSettings divided(SimulationSettings settings) {
+/// Divides the steps of an explicit method into the fewest stable substeps, or into as many `ratio` times as short.
+inline SimulationSettings divided(SimulationSettings settings, double ratio = 1) {
   if (!is_explicit(settings.integrator.method)) return settings;
   settings.integrator.substeps.reset();
-  const double longest = safe_step(make_system(settings));
+  const double longest = safe_step(make_system(settings)) / ratio;
   settings.integrator.substeps = static_cast<int>(SubstepGuard::fewest_substeps(settings.step, longest));
   return settings;
 }
@@ -68,11 +68,7 @@ inline SimulationSettings divided(SimulationSettings settings) {
 /// Divides the steps of an explicit method so that the energy of vibrations varies little: by (hω)² of velocity Verlet,
 /// by hω of semi-implicit Euler.
 inline SimulationSettings calm(SimulationSettings settings) {
-  if (!is_explicit(settings.integrator.method)) return settings;
-  const double ratio = settings.integrator.method == Method::verlet ? calm_ratio : 4;
-  const double longest = safe_step(make_system(settings)) / ratio;
-  settings.integrator.substeps = static_cast<int>(SubstepGuard::fewest_substeps(settings.step, longest));
-  return settings;
+  return divided(settings, settings.integrator.method == Method::verlet ? calm_ratio : 4);
 }
 
 /// Makes each substep of a motion a step.

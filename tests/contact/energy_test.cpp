@@ -148,7 +148,6 @@ SimulationSettings make(const Trial& run) {
   }
   settings.cloth.velocities = velocities(run, settings.cloth, random);
   add_obstacle(run.obstacle(), settings.effects);
-  // A sheet strained at the start oscillates, and the energy of an explicit method with it, by a part (hω)².
   settings = in_substeps(settings);
   // The energy of an explicit method oscillates by a part of (hω)², more in an initially strained cloth.
   const double ratio = run.method().method == Method::verlet ? calm_ratio : 2;
