@@ -219,8 +219,11 @@ void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& c
                 "Keep the scenes that an interrupted run of the same command has finished in the folder");
   sub->add_flag("--report-only", arguments->report_only,
                 "Measure nothing: recreate the report from the folder's runs.csv");
-  sub->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return run_accuracy(*arguments, common); }; });
+  complete_command(
+      *sub, command, [arguments, &common] { return run_accuracy(*arguments, common); },
+      "study accuracy scene.toml\n"
+      "study accuracy scene.toml --methods liu13,quasi-newton --tolerances 1e-2,1e-4\n"
+      "study accuracy scene.toml --animate methods -o out/methods");
 }
 
 }  // namespace drape

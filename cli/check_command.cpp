@@ -294,8 +294,11 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
   sub->add_option("--shard", arguments->shard,
                   "K/N: check only the K-th of N parts that take about as long; drape merge puts them together");
   add_limits(*sub, *arguments);
-  sub->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return check(*arguments, common); }; });
+  complete_command(
+      *sub, command, [arguments, &common] { return check(*arguments, common); },
+      "check scenes/*.toml\n"
+      "check scenes/*.toml --update none      # in continuous integration\n"
+      "check scene.toml --motion-tolerance 1e-5");
 }
 
 namespace {
@@ -342,8 +345,10 @@ void add_bless_command(CLI::App& app, const CommonOptions& common, Command& comm
       ->required();
   sub->add_option("--frames", arguments->frames, "Frames of the film to compare: A,B,C; see [check] in the scene");
   add_backend_option(*sub, arguments->backend);
-  sub->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return bless(*arguments, common); }; });
+  complete_command(
+      *sub, command, [arguments, &common] { return bless(*arguments, common); },
+      "bless scenes/*.toml\n"
+      "bless scene.toml --frames 0,40,120");
 }
 
 namespace {
@@ -391,8 +396,10 @@ void add_accept_command(CLI::App& app, const CommonOptions& common, Command& com
   sub->add_option("SCENE", arguments->scenes, "Only these scenes: names in the report, or scene files");
   sub->add_option("--frames", arguments->frames,
                   "Only the pictures of these frames, if the motion is unchanged: A,B,C");
-  sub->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return accept(*arguments, common); }; });
+  complete_command(
+      *sub, command, [arguments, &common] { return accept(*arguments, common); },
+      "accept out/check\n"
+      "accept out/check flag --frames 40");
 }
 
 }  // namespace drape

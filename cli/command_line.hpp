@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "cli/exit_code.hpp"
 #include "cli/terminal.hpp"
@@ -21,6 +22,13 @@ struct CommonOptions {
 
 /// The work of a subcommand, executed after parsing of the whole command line.
 using Command = std::function<ExitCode()>;
+
+/// Ends the help of a command with examples: one per line, without the word drape.
+void add_examples(CLI::App& command, std::string_view lines);
+
+/// Completes a new subcommand: parsing it sets `command` to `work`.
+/// @param examples see add_examples(); none if empty
+void complete_command(CLI::App& subcommand, Command& command, Command work, std::string_view examples = {});
 
 /// Adds the run commands render and simulate. Parsing one of them sets `command`.
 void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command);
@@ -82,9 +90,6 @@ void use_environment_isa();
 /// Applies drape's environment variable DRAPE_DATA: the data folder.
 /// @throws UsageError if there is no such folder
 void use_environment_data();
-
-/// Adds examples to the help of every command.
-void add_examples(CLI::App& app);
 
 /// Explains a command line error and suggests a correction: another command or option, `drape render` for a scene in
 /// place of a command, or `--set` for a key of the scene written as an option.

@@ -199,8 +199,11 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
   add_style_option(*sub, options.style);
   add_quality_option(*sub, arguments->overrides);
   add_backend_option(*sub, options.backend);
-  sub->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return run_compare(*arguments, common); }; });
+  complete_command(
+      *sub, command, [arguments, &common] { return run_compare(*arguments, common); },
+      "compare a.toml b.toml -o ab.gif\n"
+      "compare scene.toml --vary integrator.method=liu13,verlet\n"
+      "compare a.toml b.toml --difference -o ab.html");
 }
 
 }  // namespace drape

@@ -368,13 +368,15 @@ void add_doctor_command(CLI::App& app, Command& command) {
   CLI::App* doctor = app.add_subcommand("doctor", "Report what drape finds on this machine, and what to install");
   auto as_json = std::make_shared<bool>(false);
   doctor->add_flag("--json", *as_json, "Print JSON");
-  doctor->callback([as_json, &command] {
-    command = [as_json] {
-      const Diagnosis diagnosis = diagnose();
-      print_text(stdout, *as_json ? to_json(diagnosis).dump(2) + "\n" : to_text(diagnosis));
-      return diagnosis.drawing.works() ? ExitCode::ok : ExitCode::output;
-    };
-  });
+  complete_command(
+      *doctor, command,
+      [as_json] {
+        const Diagnosis diagnosis = diagnose();
+        print_text(stdout, *as_json ? to_json(diagnosis).dump(2) + "\n" : to_text(diagnosis));
+        return diagnosis.drawing.works() ? ExitCode::ok : ExitCode::output;
+      },
+      "doctor\n"
+      "doctor --json");
 }
 
 }  // namespace drape

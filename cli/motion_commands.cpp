@@ -83,8 +83,11 @@ void add_import_command(CLI::App& app, const CommonOptions& common, Command& com
       ->check(number_in({.minimum = 1e-9, .maximum = 1e9}));
   sub->add_option("--mesh", options.mesh, "Mesh of a .pc2; default the .obj of the same name");
   sub->add_option("--prim", options.prim, "Mesh of a USD file, such as /World/cloth");
-  sub->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return run_import(*arguments, common); }; });
+  complete_command(
+      *sub, command, [arguments, &common] { return run_import(*arguments, common); },
+      "import 'meshes/{frame:04}.obj' --fps 30 -o motion.drape\n"
+      "import cloth.npz --up y --body 'arm/{frame:04}.obj' -o motion.drape\n"
+      "import cache.pc2 --mesh cloth.obj --scale 0.01 -o motion.drape");
 }
 
 namespace {
@@ -214,12 +217,15 @@ void add_audit_command(CLI::App& app, const CommonOptions& common, Command& comm
   sub->add_option("--set", arguments->overrides, "Override a value of all scenes: key.path=value; repeatable")
       ->allow_extra_args(false);
   add_backend_option(*sub, arguments->backend);
-  sub->callback([arguments, &common, &command] {
-    command = [arguments, &common] {
-      arguments->options.depth = 1e-3 * arguments->deepest;
-      return run_audit(*arguments, common);
-    };
-  });
+  complete_command(
+      *sub, command,
+      [arguments, &common] {
+        arguments->options.depth = 1e-3 * arguments->deepest;
+        return run_audit(*arguments, common);
+      },
+      "audit motion.drape\n"
+      "audit scene.toml --max-stretch 1.2 -o audit.html\n"
+      "audit scenes/*.toml --steps 100");
 }
 
 }  // namespace drape

@@ -225,19 +225,34 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
   render->add_flag("--open", arguments->open, "Show the first output when it is complete, with xdg-open");
   add_shared_options(*render, *arguments, "Scene files (TOML), or motions: .drape, or what drape import reads");
   render->add_option("--scene", arguments->look, "Render motions with the camera, look and film of this scene");
-  render->callback([arguments, &common, &command] {
-    if (arguments->outputs.empty())
-      arguments->outputs = {arguments->sheet.empty() ? "out/{scene}.gif" : "out/{scene}.png"};
-    command = [arguments, &common] { return run_all(*arguments, common); };
-  });
+  complete_command(
+      *render, command,
+      [arguments, &common] {
+        if (arguments->outputs.empty())
+          arguments->outputs = {arguments->sheet.empty() ? "out/{scene}.gif" : "out/{scene}.png"};
+        return run_all(*arguments, common);
+      },
+      "render scene.toml                                    # out/scene.gif\n"
+      "render scene.toml --quality draft --open\n"
+      "render scene.toml -o film.mp4 -o frames/{frame:04}.png\n"
+      "render scene.toml --set video.fps=50 --frames 100..120\n"
+      "render scene.toml -o film.webp --max-size 2MB --poster\n"
+      "render motion.drape --set video.speed=0.1 -o slow.mp4");
 
   CLI::App* simulate = app.add_subcommand("simulate", "Simulate scenes without drawing them");
   add_outputs(*simulate, *arguments, "repeatable", false);
   add_shared_options(*simulate, *arguments, "Scene files (TOML)");
-  simulate->callback([arguments, &common, &command] {
-    arguments->drawing = false;
-    command = [arguments, &common] { return run_all(*arguments, common); };
-  });
+  complete_command(
+      *simulate, command,
+      [arguments, &common] {
+        arguments->drawing = false;
+        return run_all(*arguments, common);
+      },
+      "simulate scene.toml --energies energies.csv --stats stats.json\n"
+      "simulate scene.toml -o meshes/{frame:04}.obj\n"
+      "simulate scene.toml -o motion.npz --every 1\n"
+      "simulate scene.toml -o motion.drape\n"
+      "simulate --resume motion.drape");
 }
 
 }  // namespace drape

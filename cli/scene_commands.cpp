@@ -67,9 +67,10 @@ void add_new_command(CLI::App& app, const CommonOptions& common, Command& comman
       ->required()
       ->type_name(fmt::format("{}", fmt::join(scene_kinds, "|")));
   sub->add_option("FILE", *file, "Scene file to write; default KIND.toml");
-  sub->callback([kind, file, &common, &command] {
-    command = [kind, file, &common] { return write_scene(*kind, *file, common.quiet); };
-  });
+  complete_command(
+      *sub, command, [kind, file, &common] { return write_scene(*kind, *file, common.quiet); },
+      "new flag\n"
+      "new tablecloth table.toml");
 }
 
 namespace {
@@ -117,34 +118,38 @@ void add_lint_command(CLI::App& app, const CommonOptions& common, Command& comma
   sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
   sub->add_option("--set", arguments->overrides, "Override a value of all scenes: key.path=value; repeatable")
       ->allow_extra_args(false);
-  sub->callback([arguments, &common, &command] {
-    command = [arguments, &common] {
-      const Terminal where = terminal(stdout, common.color);
-      Count count;
-      for (const std::string& scene : arguments->scenes) lint(scene, arguments->overrides, where, count);
-      if (!common.quiet) {
-        print_text(stdout, fmt::format("{}: {}, {}\n", counted(static_cast<int>(arguments->scenes.size()), "scene"),
-                                       counted(count.errors, "error"), counted(count.hints, "hint")));
-      }
-      return count.errors > 0 ? ExitCode::usage : ExitCode::ok;
-    };
-  });
+  complete_command(
+      *sub, command,
+      [arguments, &common] {
+        const Terminal where = terminal(stdout, common.color);
+        Count count;
+        for (const std::string& scene : arguments->scenes) lint(scene, arguments->overrides, where, count);
+        if (!common.quiet) {
+          print_text(stdout, fmt::format("{}: {}, {}\n", counted(static_cast<int>(arguments->scenes.size()), "scene"),
+                                         counted(count.errors, "error"), counted(count.hints, "hint")));
+        }
+        return count.errors > 0 ? ExitCode::usage : ExitCode::ok;
+      },
+      "lint scene.toml\n"
+      "lint scenes/*.toml");
 }
 
 void add_schema_command(CLI::App& app, Command& command) {
   auto file = std::make_shared<std::string>();
   CLI::App* sub = app.add_subcommand("schema", "Print a JSON schema of scene files, for editors");
   sub->add_option("-o,--output", *file, "Write it to this file instead");
-  sub->callback([file, &command] {
-    command = [file] {
-      if (file->empty()) {
-        print_text(stdout, json_schema::scene());
-      } else {
-        write_file_atomically(*file, json_schema::scene());
-      }
-      return ExitCode::ok;
-    };
-  });
+  complete_command(
+      *sub, command,
+      [file] {
+        if (file->empty()) {
+          print_text(stdout, json_schema::scene());
+        } else {
+          write_file_atomically(*file, json_schema::scene());
+        }
+        return ExitCode::ok;
+      },
+      "schema\n"
+      "schema -o scene.schema.json");
 }
 
 namespace {
@@ -171,7 +176,7 @@ void add_manual_command(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("manual", "Write the manual's pages and the shells' completions into a folder");
   sub->group("");  // hidden: used by installation
   sub->add_option("FOLDER", *folder, "Laid out as /usr/share")->required();
-  sub->callback([folder, &app, &command] { command = [folder, &app] { return write_manual(app, *folder); }; });
+  complete_command(*sub, command, [folder, &app] { return write_manual(app, *folder); });
 }
 
 void add_complete_command(CLI::App& app, Command& command) {
@@ -179,15 +184,13 @@ void add_complete_command(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("complete", "Print the completions of a command line's last word");
   sub->group("");  // hidden: used by the shells' completions
   sub->add_option("WORD", *words, "The words after drape; the last one is incomplete, maybe empty");
-  sub->callback([words, &app, &command] {
-    command = [words, &app] {
-      for (const Completion& one : completions(describe_command(app), reference_tables(), *words)) {
-        // A tab or a new line in the name of a file would end the word.
-        if (one.word.find_first_of("\t\n") != std::string::npos) continue;
-        print_unescaped(stdout, one.help.empty() ? one.word + "\n" : fmt::format("{}\t{}\n", one.word, one.help));
-      }
-      return ExitCode::ok;
-    };
+  complete_command(*sub, command, [words, &app] {
+    for (const Completion& one : completions(describe_command(app), reference_tables(), *words)) {
+      // A tab or a new line in the name of a file would end the word.
+      if (one.word.find_first_of("\t\n") != std::string::npos) continue;
+      print_unescaped(stdout, one.help.empty() ? one.word + "\n" : fmt::format("{}\t{}\n", one.word, one.help));
+    }
+    return ExitCode::ok;
   });
 }
 
@@ -234,8 +237,10 @@ void add_watch_command(CLI::App& app, const CommonOptions& common, Command& comm
       ->check(whole_number_in({0, 65535}));
   sub->add_flag("--no-open", arguments->hidden, "Only print the address of the page");
   add_backend_option(*sub, arguments->backend);
-  sub->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return watch(*arguments, common); }; });
+  complete_command(
+      *sub, command, [arguments, &common] { return watch(*arguments, common); },
+      "watch scene.toml\n"
+      "watch scene.toml --port 8000 --no-open");
 }
 
 }  // namespace drape

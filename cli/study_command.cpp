@@ -44,8 +44,9 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
       study.add_subcommand("homework", "Measure the homework's tables again and compare with its report");
   add_study_files(*homework, arguments->files);
   homework->add_option("--runs", arguments->runs, runs_help)->check(whole_number_in({1, 1000}));
-  homework->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return run_homework(*arguments, common); }; });
+  complete_command(
+      *homework, command, [arguments, &common] { return run_homework(*arguments, common); },
+      "study homework --runs 3 -o out/homework");
 }
 
 }  // namespace
@@ -83,6 +84,9 @@ ExitCode conclude_study(const StudyReport& report, const StudyFiles& files, cons
 void add_study_command(CLI::App& app, const CommonOptions& common, Command& command) {
   CLI::App* study = app.add_subcommand("study", "Measure accuracy, cost and stability, with diagrams and a page");
   study->require_subcommand(1);
+  add_examples(*study,
+               "study accuracy scene.toml\n"
+               "study homework");
   add_homework_study(*study, common, command);
   add_accuracy_study(*study, common, command);
   add_scaling_study(*study, common, command);
@@ -114,8 +118,8 @@ void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& co
       ->check(whole_number_in({1, 10000}));
   sub->add_option("--runs", arguments->options.runs, runs_help)->check(whole_number_in({1, 1000}));
   add_study_files(*sub, arguments->files);
-  sub->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return run_scaling(*arguments, common); }; });
+  complete_command(
+      *sub, command, [arguments, &common] { return run_scaling(*arguments, common); }, "study scaling --grids 20,40");
 }
 
 namespace {
@@ -178,8 +182,9 @@ void add_stability_study(CLI::App& study, const CommonOptions& common, Command& 
       ->check(whole_number_in({1, 100000}));
   stability->add_option("--shard", arguments->shard,
                         "Run only the K-th of N parts of about equal length, for drape merge: K/N");
-  stability->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return run_stability(*arguments, common); }; });
+  complete_command(
+      *stability, command, [arguments, &common] { return run_stability(*arguments, common); },
+      "study stability --per-decade 2 -o out/maps");
 }
 
 namespace {
@@ -297,9 +302,10 @@ void add_validation_study(CLI::App& study, const CommonOptions& common, Command&
                 "Keep the runs that an interrupted run of the same command has finished in the folder");
   sub->add_flag("--report-only", arguments->report_only,
                 "Measure nothing: recreate the report from the folder's runs.csv");
-  sub->callback([arguments, &common, &command] {
-    command = [arguments, &common] { return run_validation(*arguments, common); };
-  });
+  complete_command(
+      *sub, command, [arguments, &common] { return run_validation(*arguments, common); },
+      "study validation\n"
+      "study validation pendulum catenary --methods implicit-sdirk2 -o out/two");
 }
 
 namespace {
@@ -334,8 +340,10 @@ void add_validate_command(CLI::App& app, const CommonOptions& common, Command& c
                   "CSV with the columns problem,quantity,value; or NPZ with positions and times of one motion")
       ->required();
   sub->add_option("--problem", arguments->problem, "Problem of the case that the motion in an NPZ file is of");
-  sub->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return run_validate(*arguments, common); }; });
+  complete_command(
+      *sub, command, [arguments, &common] { return run_validate(*arguments, common); },
+      "validate heavy-cantilever answers.csv\n"
+      "validate catenary motion.npz --problem span-1.2");
 }
 
 }  // namespace drape

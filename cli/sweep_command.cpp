@@ -192,8 +192,10 @@ void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& comm
   sub->add_flag("--submit", arguments->submit, "Submit these jobs")->needs(slurm);
   sub->add_flag("--dry-run", arguments->dry_run, "Check everything and list the runs with estimated times");
   sub->add_flag("--report-only", arguments->report_only, "Run nothing; write the report again from the folder");
-  sub->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return sweep(*arguments, common); }; });
+  complete_command(
+      *sub, command, [arguments, &common] { return sweep(*arguments, common); },
+      "sweep scene.toml --vary cloth.stiffness=10..80/8\n"
+      "sweep scene.toml --vary integrator.method=liu13,implicit --film gif");
 }
 
 namespace {
@@ -330,8 +332,9 @@ void add_merge_command(CLI::App& app, const CommonOptions& common, Command& comm
   sub->add_option("-o,--output", arguments->output, "Folder for the merged result; default the first DIR")
       ->check(on_one_line());
   add_style_option(*sub, arguments->style);
-  sub->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return merge(*arguments, common); }; });
+  complete_command(
+      *sub, command, [arguments, &common] { return merge(*arguments, common); },
+      "merge out/shard-1 out/shard-2 -o out/sweep");
 }
 
 }  // namespace drape

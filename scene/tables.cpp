@@ -102,11 +102,15 @@ Keys time_keys(Scene& scene) {
 
 Keys integrator_keys(IntegratorSettings& integrator) {
   Keys keys;
-  keys.choice(
-      "method", integrator.method, {method_names.begin(), method_names.end()},
-      "How a step is computed. Auto: verlet in substeps, or quasi-newton where that is cheaper, see "
-      "[command-line.md](command-line.md#methods). Explicit: semi-implicit, verlet. Implicit: implicit (Newton), "
-      "liu13, quasi-newton.");
+  std::string explicit_names, implicit_names;
+  for (const MethodTraits& method : method_traits) {
+    std::string& names = method.order > 0 ? explicit_names : implicit_names;
+    names.append(names.empty() ? "" : ", ").append(method.name);
+  }
+  keys.choice("method", integrator.method, {method_names.begin(), method_names.end()},
+              "How a step is computed. Auto: verlet in substeps, or quasi-newton where that is cheaper, see "
+              "[command-line.md](command-line.md#methods). Explicit: " +
+                  explicit_names + ". Implicit: " + implicit_names + ".");
   std::string schemes;
   for (const SchemeTraits& scheme : scheme_traits) schemes.append(schemes.empty() ? "" : ", or ").append(scheme.title);
   keys.choice("scheme", integrator.scheme, {scheme_names.begin(), scheme_names.end()},
