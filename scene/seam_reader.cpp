@@ -14,9 +14,9 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double most_gathered = 4;  // ratio of the sides' lengths
-constexpr double closed = 1e-6;      // distance of pins that a seam may join [m]
-constexpr double same_place = 1e-9;  // of a vertex and the end of an edge, as a share of the seam's length
+constexpr double most_gathered = 4;    // ratio of the sides' lengths
+constexpr double pin_distance = 1e-6;  // distance of pins that a seam may join [m]
+constexpr double same_place = 1e-9;    // of a vertex and the end of an edge, as a share of the seam's length
 
 /// A side of a seam: vertices in order, and the share of the length at each.
 struct Side {
@@ -193,7 +193,7 @@ bool check_ties(const Seam& seam, const TomlValue& value, const Cloth& cloth, Pr
       problems.add(value.place, fmt::format("[seam]: both sides have the vertex {}", tie.vertex));
       return false;
     }
-    if (is_pinned(tie.vertex) && is_pinned(tie.edge[0]) && is_pinned(tie.edge[1]) && tie.length > closed) {
+    if (is_pinned(tie.vertex) && is_pinned(tie.edge[0]) && is_pinned(tie.edge[1]) && tie.length > pin_distance) {
       problems.add(value.place, fmt::format("[seam]: it cannot close: vertex {} and the point it is sewn to are pinned "
                                             "{:.3g} m apart",
                                             tie.vertex, tie.length));
