@@ -25,8 +25,12 @@ class ContactProblem {
   void linearise(const Vertices& x, double concavity, double damping);
   /// Returns true for Newton's Hessian, where a small step means that the minimum is near.
   [[nodiscard]] bool exact() const { return hessian_ == ImplicitHessian::newton; }
-  /// Returns a factor of H, damped as in linearise(), or null. It accepts contacts between vertices that H couples.
+  /// Returns a factor of H, damped as in linearise(), or null.
   [[nodiscard]] NewtonCholesky* factor();
+  /// Makes the factor independent of the contacts of former steps.
+  void forget_contacts() {
+    if (newton_) newton_->forget_contacts();
+  }
   /// Computes product = H·vector, zero on pins.
   void multiply(const Vertices& vector, Vertices& product);
   /// Computes solution ≈ H⁻¹·vector, symmetric positive definite over the free vertices, zero on pins.

@@ -235,25 +235,21 @@ ContactSolver::PointStatus ContactSolver::assess(const ContactProblem& problem, 
   return now;
 }
 
-std::vector<char> ContactSolver::solve_with_factor(NewtonCholesky& factor, const Vertices& x) {
+bool ContactSolver::solve_with_factor(NewtonCholesky& factor, const Vertices& x) {
   std::vector<ContactBlock> blocks;
-  std::vector<char> solved(contacts_.size(), 0);
   for (Index k = 0; k < contacts_.size(); ++k) {
     const ContactConstraint& contact = contacts_[k];
-    ContactBlock block{contact.count, contact.vertices, contact.weights, responses_[k].stiffness};
-    solved[k] = block.stiffness.isZero(0) || factor.couples(block) ? 1 : 0;
-    if (solved[k] != 0 && !block.stiffness.isZero(0)) blocks.push_back(block);
+    blocks.push_back({contact.count, contact.vertices, contact.weights, responses_[k].stiffness});
   }
-  factor.set_contacts(std::move(blocks));
+  if (!factor.set_contacts(std::move(blocks))) return false;
   factor.begin();
   factor.solve(x, gradient_, concavity_, direction_);
-  return solved;
+  return true;
 }
 
-std::vector<HeldDirection> ContactSolver::held_directions(const std::vector<char>& solved) const {
+std::vector<HeldDirection> ContactSolver::held_directions() const {
   std::vector<HeldDirection> held;
   for (Index k = 0; k < contacts_.size(); ++k) {
-    if (solved[k] != 0) continue;
     const ContactConstraint& contact = contacts_[k];
     const Response& response = responses_[k];
     const auto hold = [&](const Eigen::Vector3d& u) {
@@ -278,31 +274,20 @@ std::vector<HeldDirection> ContactSolver::held_directions(const std::vector<char
 
 void ContactSolver::find_direction(ContactProblem& problem, const Vertices& x) {
   NewtonCholesky* const factor = problem.factor();
-  std::vector<char> solved(contacts_.size(), 0);
-  if (factor != nullptr) {
-    solved = solve_with_factor(*factor, x);
-    if (std::ranges::all_of(solved, [](char one) { return one != 0; })) return;
-    problem.linearise(x, factor->share(), damping_);
-  }
-  preconditioner_.set(contacts_, held_directions(solved), inverse_masses_);
-  iterate_linearly(problem, [&](const Vertices& a, Vertices& b) {
-    if (factor != nullptr) {
-      factor->solve_again(a, b);
-    } else {
-      problem.precondition(a, b);
-    }
-  });
+  if (factor != nullptr && solve_with_factor(*factor, x)) return;
+  preconditioner_.set(contacts_, held_directions(), inverse_masses_);
+  iterate_linearly(problem);
 }
 
-template <class Solve>
-void ContactSolver::iterate_linearly(ContactProblem& problem, const Solve& solve) {
+void ContactSolver::iterate_linearly(ContactProblem& problem) {
   const Threads& threads = system_.threads;
   direction_.setZero();
   residual_ = gradient_;
   double energy = 0, first = 0;
   for (int iteration = 0; iteration < most_linear_iterations; ++iteration) {
     system_.stop.look();
-    preconditioner_.apply(residual_, preconditioned_, solve);
+    preconditioner_.apply(residual_, preconditioned_,
+                          [&](const Vertices& a, Vertices& b) { problem.precondition(a, b); });
     const double before = energy;
     energy = dot(threads, residual_, preconditioned_);
     if (iteration == 0) {
@@ -378,6 +363,7 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
   double steepness = 0, moved = std::numeric_limits<double>::infinity();
   concavity_ = damping_ = 0;
   exact_ = problem.exact();
+  problem.forget_contacts();
   for (;; ++report.iterations) {
     problem.linearise(point.x, 0, damping_);
     set_stiffness(problem);

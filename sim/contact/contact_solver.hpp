@@ -114,11 +114,11 @@ class ContactSolver {
 
   // Computes Newton's direction for gradient_.
   void find_direction(ContactProblem& problem, const Vertices& x);
-  /// Solves with a factor of the Hessian and of contacts that add no coupling to it; returns a flag for each of these.
-  std::vector<char> solve_with_factor(NewtonCholesky& factor, const Vertices& x);
-  [[nodiscard]] std::vector<HeldDirection> held_directions(const std::vector<char>& solved) const;
-  template <class Solve>
-  void iterate_linearly(ContactProblem& problem, const Solve& solve);
+  /// Does so with a factor of the Hessian and the contacts; returns false if that would be too expensive.
+  [[nodiscard]] bool solve_with_factor(NewtonCholesky& factor, const Vertices& x);
+  /// Does so by conjugate gradients.
+  void iterate_linearly(ContactProblem& problem);
+  [[nodiscard]] std::vector<HeldDirection> held_directions() const;
   /// Moves along direction_ until the augmented function falls enough below `value`. Returns the step length, or 0.
   [[nodiscard]] double descend(ContactProblem& problem, Iterate& point, double value);
 

@@ -87,7 +87,7 @@ bool ConstantFactor::factor_columns(const LowerPattern& pattern, const std::vect
 bool ConstantFactor::factor_fronts(const LowerPattern& pattern, const std::vector<double>& values, const System& system,
                                    const FreeVertices& free) {
   system.stop.look();
-  MultifrontalCholesky factor(pattern, dissect(pattern, free.rest_places(system.cloth)), sizeof(float));
+  MultifrontalCholesky factor(pattern, dissect(pattern, free.rest_places(system.cloth)), Solves::many, sizeof(float));
   if (!factor.factorize(values.data(), [&] { system.stop.look(); })) return false;
   number_rows(factor.permutation().data(), free);
   entries_ = factor.entries();

@@ -141,14 +141,15 @@ struct Analysis {
 
 }  // namespace
 
-Supernodes find_supernodes(const LowerPattern& pattern, const std::vector<int>& order) {
+Supernodes find_supernodes(const LowerPattern& pattern, const std::vector<int>& order, Solves solves) {
   Analysis analysis;
   cholmod_common& common = analysis.common;
   common.print = 0;
   common.supernodal = CHOLMOD_SUPERNODAL;
-  // A tenth of CHOLMOD's limit for zeros in merged supernodes, as a factor is solved a hundred times as often as it is
-  // computed. For a million vertices this saves 12 % of the entries and a quarter of the time of a solve.
-  for (double& share : common.zrelax) share *= 0.1;
+  // Of CHOLMOD's limit for zeros in merged supernodes. A tenth of it saves 12 % of the entries of a million vertices
+  // and a quarter of the time of a solve; the double saves a quarter of the time of a factorisation.
+  const double relaxation = solves == Solves::many ? 0.1 : 2;
+  for (double& share : common.zrelax) share *= relaxation;
   if (!order.empty()) {
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_GIVEN;
@@ -198,20 +199,20 @@ constexpr double always_allowed = 2e12;
 
 /// Returns the supernodes of the given order. Uses CHOLMOD's order if none is given, or if the given one costs more
 /// than for a surface: separators grow with the coupling distance, and elimination with its third power.
-Supernodes analyse(const LowerPattern& pattern, const std::vector<int>& order) {
-  if (order.empty()) return find_supernodes(pattern, {});
-  Supernodes given = find_supernodes(pattern, order);
+Supernodes analyse(const LowerPattern& pattern, const std::vector<int>& order, Solves solves) {
+  if (order.empty()) return find_supernodes(pattern, {}, solves);
+  Supernodes given = find_supernodes(pattern, order, solves);
   const double coupled = 2.0 * pattern.entries() - pattern.size();
   if (given.operations <= 2 * coupled * std::sqrt(coupled)) return given;
-  Supernodes other = find_supernodes(pattern, {});
+  Supernodes other = find_supernodes(pattern, {}, solves);
   return other.operations < given.operations ? other : given;
 }
 
 }  // namespace
 
-MultifrontalCholesky::MultifrontalCholesky(const LowerPattern& pattern, const std::vector<int>& order,
+MultifrontalCholesky::MultifrontalCholesky(const LowerPattern& pattern, const std::vector<int>& order, Solves solves,
                                            double caller_bytes)
-    : tree_(analyse(pattern, order)), children_(Index(tree_.count()), 0) {
+    : tree_(analyse(pattern, order, solves)), children_(Index(tree_.count()), 0) {
   const Sizes sizes = lay_out();
   require_surface(pattern.size(), operations_, always_allowed);
   const double bytes = static_cast<double>(entries_) * (sizeof(double) + caller_bytes) +

@@ -63,25 +63,28 @@ NewtonCholesky::NewtonCholesky(const System& system, const StepObjective& object
     vertices_.push_back(free.vertex(row));
     inertia_.push_back(objective.inertia()[vertices_.back()]);
   }
-  const StiffnessBound bound = system.stiffness_bound();
-  pattern_ = spring_pattern(bound, free);
-  const LowerPattern& blocks = pattern_;
   for (int i = 0; i < system.cloth.vertex_count(); ++i) numbers_.push_back(free.number(i));
-  bound.for_each_pair([&](const Spring& spring) {
-    const auto [low, high] = std::minmax({free.number(spring.i), free.number(spring.j)});
-    places_.push_back({low, high, 0});
-    if (low < 0) return;
-    const auto begin = blocks.rows.begin() + blocks.starts[Index(low)];
-    const auto end = blocks.rows.begin() + blocks.starts[Index(low) + 1];
-    places_.back().rank = static_cast<int>(std::lower_bound(begin, end, high) - begin) - 1;
-  });
   for (const auto& energy : system.energies) hessians_.push_back(energy->make_hessian());
+  plain_ = spring_pattern(system.stiffness_bound(), free);
+  lay_out_plainly();
+}
 
-  const LowerPattern pattern = expanded(blocks);
+void NewtonCholesky::lay_out_plainly() {
+  lay_out(plain_, dissect(plain_, FreeVertices(system_.cloth).rest_places(system_.cloth)));
+}
+
+void NewtonCholesky::lay_out(LowerPattern blocks, const std::vector<int>& order) {
+  pattern_ = std::move(blocks);
+  places_.clear();
+  system_.stiffness_bound().for_each_pair([&](const Spring& spring) {
+    const auto [low, high] = std::minmax(numbers_[Index(spring.i)], numbers_[Index(spring.j)]);
+    places_.push_back({low, high, low < 0 ? 0 : rank_of(low, high)});
+  });
+  const LowerPattern pattern = expanded(pattern_);
   column_starts_.assign(pattern.starts.begin(), pattern.starts.end() - 1);
   values_.resize(Index(pattern.entries()));
-  right_hand_side_.resize(3 * Index(n));
-  factor_.emplace(pattern, expanded(dissect(blocks, free.rest_places(system.cloth))));
+  right_hand_side_.resize(3 * vertices_.size());
+  factor_.emplace(pattern, expanded(order), Solves::few);
 }
 
 int NewtonCholesky::rank_of(int low, int high) const {
@@ -91,14 +94,72 @@ int NewtonCholesky::rank_of(int low, int high) const {
   return at != end && *at == high ? static_cast<int>(at - begin) - 1 : -1;
 }
 
-bool NewtonCholesky::couples(const ContactBlock& block) const {
+template <class Visit>
+void NewtonCholesky::for_each_pair(const ContactBlock& block, const Visit& visit) const {
   for (Index a = 0; a < Index(block.count); ++a) {
     for (Index b = 0; b < a; ++b) {
       const auto [low, high] = std::minmax(numbers_[Index(block.vertices[a])], numbers_[Index(block.vertices[b])]);
-      if (low >= 0 && rank_of(low, high) < 0) return false;
+      if (low >= 0) visit(low, high);
     }
   }
-  return true;
+}
+
+bool NewtonCholesky::couples(const ContactBlock& block) const {
+  bool all = true;
+  for_each_pair(block, [&](int low, int high) { all = all && rank_of(low, high) >= 0; });
+  return all;
+}
+
+namespace {
+
+/// Returns a pattern with more rows in its columns, which may have some of them already.
+LowerPattern widened(const LowerPattern& pattern, std::vector<std::vector<int>> more) {
+  LowerPattern result;
+  result.starts.push_back(0);
+  for (Index c = 0; c < more.size(); ++c) {
+    std::vector<int>& rows = more[c];
+    rows.insert(rows.end(), pattern.rows.begin() + pattern.starts[c], pattern.rows.begin() + pattern.starts[c + 1]);
+    std::ranges::sort(rows);
+    rows.erase(std::ranges::unique(rows).begin(), rows.end());
+    result.rows.insert(result.rows.end(), rows.begin(), rows.end());
+    result.starts.push_back(static_cast<int>(result.rows.size()));
+  }
+  return result;
+}
+
+}  // namespace
+
+bool NewtonCholesky::set_contacts(std::vector<ContactBlock> contacts) {
+  contacts_ = std::move(contacts);
+  if (vertices_.empty() || widen_pattern()) return true;
+  contacts_.clear();
+  return false;
+}
+
+bool NewtonCholesky::widen_pattern() {
+  const bool forgets = std::exchange(forgets_, false);
+  if (forgets) too_wide_ = false;
+  const bool coupled = std::ranges::all_of(contacts_, [&](const ContactBlock& block) { return couples(block); });
+  if (too_wide_ || (coupled && !forgets)) return !too_wide_;
+  std::vector<std::vector<int>> more(vertices_.size());
+  for (const ContactBlock& block : contacts_) {
+    for_each_pair(block, [&](int low, int high) { more[Index(low)].push_back(high); });
+  }
+  LowerPattern pattern = widened(forgets ? plain_ : pattern_, std::move(more));
+  if (pattern == pattern_) return true;
+  if (pattern == plain_) {
+    lay_out_plainly();
+    return true;
+  }
+  try {
+    // Contacts join vertices far apart on the cloth, so CHOLMOD orders them.
+    const std::vector<int> order = find_supernodes(pattern, {}).order;
+    lay_out(std::move(pattern), order);
+  } catch (const UsageError&) {
+    lay_out_plainly();
+    too_wide_ = true;
+  }
+  return !too_wide_;
 }
 
 void NewtonCholesky::add_contacts() {
@@ -158,7 +219,6 @@ void NewtonCholesky::assemble(const Vertices& x, double concavity) {
   }
   add_energies(x, concavity);
   add_contacts();
-  share_ = concavity;
 }
 
 bool NewtonCholesky::factorize(const Vertices& x, double most) {

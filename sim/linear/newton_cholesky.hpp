@@ -22,26 +22,41 @@ struct ContactBlock {
 
 /// Solver of Newton's equations by a Cholesky factor of H = M/h² + Σ Kₛ. There is one symmetric 3×3 block per spring
 /// and per pair of vertices coupled by an energy; energies of single vertices add to the diagonal. The sparsity is
-/// analysed once, on the n×n graph of vertices; each assembly writes the values in place. An energy's product, which
-/// couples all vertices, stays outside the factor: each costs one more solve per factor.
+/// analysed on the n×n graph of vertices, once, and again when contacts couple other vertices; each assembly writes the
+/// values in place. An energy's product, which couples all vertices, stays outside the factor: each costs one more
+/// solve per factor.
 class NewtonCholesky final : public NewtonSolver {
  public:
   NewtonCholesky(const System& system, const StepObjective& objective);
   void begin() override { concavity_ = 1; }
   void solve(const Vertices& x, const Vertices& gradient, double concavity, Vertices& direction) override;
 
-  /// Returns true if every two free vertices of the contact are coupled by springs or energies.
-  [[nodiscard]] bool couples(const ContactBlock& block) const;
-  /// Adds contacts to H from now on; they must not couple more vertices than H does.
-  void set_contacts(std::vector<ContactBlock> contacts) { contacts_ = std::move(contacts); }
+  /// Adds contacts to H from now on, and widens its pattern if they couple other vertices.
+  /// @returns false if that factor would be too expensive: contacts are then left out until forget_contacts()
+  [[nodiscard]] bool set_contacts(std::vector<ContactBlock> contacts);
+  /// Forgets the couplings of former contacts at the next set_contacts(), so that a factor depends on its step alone.
+  void forget_contacts() { forgets_ = true; }
   /// Adds these to the diagonal of H, one per vertex [N/m].
   void set_damping(Eigen::VectorXd damping) { damping_ = std::move(damping); }
-  /// Computes direction = H⁻¹ vector with the factor of the last solve().
-  void solve_again(const Vertices& vector, Vertices& direction);
-  /// Returns the fraction of the negative eigenvalues in that factor.
-  [[nodiscard]] double share() const { return share_; }
 
  private:
+  /// Returns the index of the block of two free rows in the column of the smaller one; −1: none.
+  [[nodiscard]] int rank_of(int low, int high) const;
+  /// Calls visit(low, high) for every two free rows of a contact.
+  template <class Visit>
+  void for_each_pair(const ContactBlock& block, const Visit& visit) const;
+  /// Returns true if the pattern of H has a block for every two free vertices of the contact.
+  [[nodiscard]] bool couples(const ContactBlock& block) const;
+  /// Widens the pattern by those of the contacts; returns false if the factor would be too expensive.
+  bool widen_pattern();
+  /// Makes this the pattern of H, and lays out its values and its factor.
+  /// @param order of the block rows, with little fill
+  /// @throws UsageError, see MultifrontalCholesky
+  void lay_out(LowerPattern pattern, const std::vector<int>& order);
+  /// Lays out the pattern of springs and energies.
+  void lay_out_plainly();
+  /// Computes direction = H⁻¹ vector with the factor of the last factorize().
+  void solve_again(const Vertices& vector, Vertices& direction);
   /// Assembles H.
   void assemble(const Vertices& x, double concavity);
   void add_energies(const Vertices& x, double concavity);
@@ -73,13 +88,12 @@ class NewtonCholesky final : public NewtonSolver {
 
   const System& system_;
   const StepObjective& objective_;
-  /// Returns the index of the block of two free rows in the column of the smaller one; −1: none.
-  [[nodiscard]] int rank_of(int low, int high) const;
-
   std::vector<ContactBlock> contacts_;
-  Eigen::VectorXd damping_;  // per vertex; empty: none [N/m]
-  double share_ = 0;
-  LowerPattern pattern_;            // in blocks
+  Eigen::VectorXd damping_;         // per vertex; empty: none [N/m]
+  LowerPattern plain_;              // pattern of springs and energies, in blocks
+  LowerPattern pattern_;            // that of the factor
+  bool forgets_ = false;            // true if the next widening starts from plain_
+  bool too_wide_ = false;           // true if the contacts' couplings make the factor too expensive
   std::vector<int> numbers_;        // block row of each vertex; −1: pinned
   double concavity_ = 1;            // next concavity to try
   std::vector<int> vertices_;       // vertex of each block row

@@ -17,6 +17,7 @@ struct LowerPattern {
 
   [[nodiscard]] int size() const { return static_cast<int>(starts.size()) - 1; }
   [[nodiscard]] int entries() const { return starts.back(); }
+  bool operator==(const LowerPattern&) const = default;
 };
 
 /// Thrown for a factor that takes far longer than that of a surface. It depends on the cloth alone, not on the

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "sim/linear/newton_cholesky.hpp"
 #include "tests/support/matrices.hpp"
@@ -109,6 +111,60 @@ TEST_P(NewtonEquations, PointDownhillHoweverCompressedTheClothIs) {
 TEST_P(NewtonEquations, OfAClothThatIsAllPinsGiveZero) {
   const Cloth cloth = cloth_of(make_grid(3, 3), 1, 180, every(16));
   EXPECT_EQ(solve(cloth, 0.02, cloth.positions, Vertices::Zero(16, 3)).norm(), 0);
+}
+
+/// Contacts between vertices of a cloth that its springs do not couple, some of them pins.
+class ContactsOfNewtonsEquations : public testing::Test {
+ protected:
+  Cloth cloth_ = cloth_of(make_grid(12, 12), 1, 180, {0, 12});
+  System system_{cloth_, 0.02};
+  StepObjective objective_{system_, system_.step};
+  Vertices x_ = cloth_.positions + 0.02 * random_vertices(cloth_.vertex_count(), 1);
+  Vertices b_ = forces(cloth_, 2);
+
+  static ContactBlock contact(std::array<int, 4> vertices) {
+    const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, 3).normalized();
+    return {4, vertices, {1, -0.5, -0.3, -0.2}, 5000 * normal * normal.transpose()};
+  }
+
+  Vertices solve(NewtonCholesky& solver, const std::vector<ContactBlock>& contacts) const {
+    EXPECT_TRUE(solver.set_contacts(contacts));
+    Vertices direction(cloth_.vertex_count(), 3);
+    solver.solve(x_, b_, 0, direction);
+    return direction;
+  }
+
+  /// Returns ‖(H + contacts) direction − b‖/‖b‖.
+  [[nodiscard]] double residual_of(const Vertices& direction, const std::vector<ContactBlock>& contacts) const {
+    Vertices product = Vertices::Zero(cloth_.vertex_count(), 3);
+    for (const ContactBlock& c : contacts) {
+      Eigen::Vector3d way = Eigen::Vector3d::Zero();
+      for (std::size_t i = 0; i < 4; ++i) way += c.weights[i] * direction.row(c.vertices[i]).transpose();
+      for (std::size_t i = 0; i < 4; ++i) product.row(c.vertices[i]) += c.weights[i] * (c.stiffness * way).transpose();
+    }
+    for (const int pin : cloth_.pins) product.row(pin).setZero();
+    return residual(cloth_, 0.02, x_, direction, b_ - product) * (b_ - product).norm() / b_.norm();
+  }
+};
+
+TEST_F(ContactsOfNewtonsEquations, CoupleAnyVertices) {
+  NewtonCholesky solver(system_, objective_);
+  const std::vector<ContactBlock> few{contact({100, 3, 4, 17})},
+      more{contact({100, 3, 4, 17}), contact({0, 90, 91, 60})};
+  for (const auto& contacts : {few, more, few}) {
+    EXPECT_LT(residual_of(solve(solver, contacts), contacts), 1e-10);
+  }
+}
+
+// Otherwise a motion that is resumed would differ in rounding.
+TEST_F(ContactsOfNewtonsEquations, LeaveNoTraceOnceTheyAreForgotten) {
+  const std::vector<ContactBlock> once{contact({150, 20, 21, 34})}, now{contact({100, 3, 4, 17})};
+  for (const auto& contacts : {now, std::vector<ContactBlock>()}) {
+    NewtonCholesky solver(system_, objective_), fresh(system_, objective_);
+    (void)solve(solver, once);
+    solver.forget_contacts();
+    EXPECT_EQ(solve(solver, contacts), solve(fresh, contacts));
+  }
 }
 
 }  // namespace
