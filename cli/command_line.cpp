@@ -426,7 +426,9 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error, std::span
     return fmt::format("'{}' is a {}, not a command; did you mean 'drape render {}'?", word, scene ? "scene" : "motion",
                        shell_word(word));
   }
-  return "unknown command '" + word + "'" + did_you_mean(word, subcommand_names(app), "commands");
+  const CLI::App& chosen = chosen_command(app);
+  const CLI::App& parent = chosen.get_subcommands(nullptr).empty() ? app : chosen;
+  return "unknown command '" + word + "'" + did_you_mean(word, subcommand_names(parent), "commands");
 }
 
 const CLI::App& find_command(const CLI::App& app, std::span<const std::string> names) {

@@ -53,6 +53,9 @@ TEST(Terminal, HelpOfEveryCommandFitsTheWindowAndHasExamples) {
   const Finished unknown = drape(folder, "help rendr");
   EXPECT_EQ(unknown.code, 2);
   EXPECT_EQ(unknown.text, "drape: unknown command 'rendr'; did you mean 'render'?\n");
+  const Finished study = drape(folder, "study homewrok");
+  EXPECT_EQ(study.code, 2);
+  EXPECT_EQ(study.text, "drape: unknown command 'homewrok'; did you mean 'homework'?\n");
 }
 
 // A film that began earlier is half done when its progress is first shown.
