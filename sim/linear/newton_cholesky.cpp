@@ -120,7 +120,7 @@ LowerPattern widened(const LowerPattern& pattern, std::vector<std::vector<int>> 
     std::vector<int>& rows = more[c];
     rows.insert(rows.end(), pattern.rows.begin() + pattern.starts[c], pattern.rows.begin() + pattern.starts[c + 1]);
     std::ranges::sort(rows);
-    rows.erase(std::ranges::unique(rows).begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     result.rows.insert(result.rows.end(), rows.begin(), rows.end());
     result.starts.push_back(static_cast<int>(result.rows.size()));
   }
