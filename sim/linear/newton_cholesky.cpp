@@ -270,7 +270,7 @@ void NewtonCholesky::solve(const Vertices& x, const Vertices& gradient, double c
   direction.setZero();
   if (!factor_ || !factorize(x, concavity)) return;
   solve_products();
-  solve_again(gradient, direction);
+  solve_factored(gradient, direction);
 }
 
 void NewtonCholesky::solve_products() {
@@ -307,7 +307,7 @@ void NewtonCholesky::correct_for_products(Index count) {
   }
 }
 
-void NewtonCholesky::solve_again(const Vertices& gradient, Vertices& direction) {
+void NewtonCholesky::solve_factored(const Vertices& gradient, Vertices& direction) {
   direction.setZero();
   for (Index row = 0; row < vertices_.size(); ++row) {
     for (int axis = 0; axis < 3; ++axis) right_hand_side_[3 * row + Index(axis)] = gradient(vertices_[row], axis);

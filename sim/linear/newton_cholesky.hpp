@@ -56,7 +56,7 @@ class NewtonCholesky final : public NewtonSolver {
   /// Lays out the pattern of springs and energies.
   void lay_out_plainly();
   /// Computes direction = H⁻¹ vector with the factor of the last factorize().
-  void solve_again(const Vertices& vector, Vertices& direction);
+  void solve_factored(const Vertices& vector, Vertices& direction);
   /// Assembles H.
   void assemble(const Vertices& x, double concavity);
   void add_energies(const Vertices& x, double concavity);
