@@ -146,7 +146,7 @@ Supernodes find_supernodes(const LowerPattern& pattern, const std::vector<int>& 
   cholmod_common& common = analysis.common;
   common.print = 0;
   common.supernodal = CHOLMOD_SUPERNODAL;
-  // Of CHOLMOD's limit for zeros in merged supernodes. A tenth of it saves 12 % of the entries of a million vertices
+  // CHOLMOD limits the zeros in merged supernodes. A tenth of its limit saves 12 % of the entries of a million vertices
   // and a quarter of the time of a solve; the double saves a quarter of the time of a factorisation.
   const double relaxation = solves == Solves::many ? 0.1 : 2;
   for (double& share : common.zrelax) share *= relaxation;

@@ -164,6 +164,7 @@ bool NewtonCholesky::widen_pattern() {
 
 void NewtonCholesky::add_contacts() {
   for (const ContactBlock& block : contacts_) {
+    if (block.stiffness.isZero(0)) continue;  // only a place in the pattern
     for (Index a = 0; a < Index(block.count); ++a) {
       const int i = numbers_[Index(block.vertices[a])];
       if (i < 0) continue;
