@@ -16,14 +16,26 @@ BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver
 }
 
 StepReport BackwardEuler::solve_step(const Vertices& steady, const std::function<bool()>& may_end) {
-  if (!contact_) return solver_->minimise(point_, may_end);
-  if (!contact_->touches(point_.x)) {
+  if (!contact_ || !contact_->touches(point_.x)) {
     const StepReport report = solver_->minimise(point_, may_end);
-    if (!contact_->touches(point_.x)) return report;
+    if (free_) balance_momentum(system_.cloth, objective_, point_);
+    // The balance too may have brought the cloth into contact.
+    if (!contact_ || !contact_->touches(point_.x)) return report;
   }
   if (!problem_) problem_.emplace(system_, objective_, solver_->constant_factor(), solver_->hessian());
   contact_->choose_start(*problem_, steady, point_);
-  return contact_->solve(*problem_, solver_->accuracy(), solver_->max_iterations(), point_);
+  const StepReport report = contact_->solve(*problem_, solver_->accuracy(), solver_->max_iterations(), point_);
+  if (free_ && !contact_->touches_obstacles()) balance_in_contact();
+  return report;
+}
+
+void BackwardEuler::balance_in_contact() {
+  const Iterate end = point_;
+  balance_momentum(system_.cloth, objective_, point_);
+  if (!contact_->collides(point_.x)) return;
+  // A shortened step lacks the momentum of the collision that it avoids.
+  point_ = end;
+  static_cast<void>(contact_->touches(point_.x));
 }
 
 double BackwardEuler::shed(bool held) {
@@ -68,12 +80,6 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   if (fields_) forces.note(fields_->end());
   const bool touches = touched_ = contact_ && !contact_->contacts().empty();
   const bool held = touches && contact_->touches_obstacles();
-  if (free_ && !held) {
-    const Iterate end = point_;
-    balance_momentum(system_.cloth, objective_, point_);
-    // A shortened step lacks the momentum of the collision that it avoids.
-    if (contact_ && !report.converged && contact_->collides(point_.x)) point_ = end;
-  }
   // The minimiser has checked a step that ended by small changes, unless it was just moved.
   const bool looked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
   if (touches && books_.gains_in_contact(point_, contact_->work(point_.x, report.converged))) {

@@ -173,6 +173,10 @@ class BackwardEuler final : public MinimisingScheme {
   /// @param held true if contacts hold the cloth
   double shed(bool held);
 
+  /// Gives a free cloth in contact with itself the momentum that the forces of the step leave it, unless the cloth then
+  /// collides.
+  void balance_in_contact();
+
   /// Minimises the objective from the point, under the contacts of a step that began at contact_->begin().
   /// @param steady positions reached at constant velocities; empty without contacts
   StepReport solve_step(const Vertices& steady, const std::function<bool()>& may_end);

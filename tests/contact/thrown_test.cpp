@@ -42,6 +42,21 @@ TEST_P(Thrown, AtASpikeStaysAroundIt) {
   expect_nothing_to_pass(thrown(s, 20), 0.05);
 }
 
+TEST_P(Thrown, ALooselySolvedSheetGetsItsMomentumOutsideOfWhatItMeets) {
+  for (int pose = 0; pose < 8; ++pose) {
+    Mesh rest = level_square(0.5, 8, 0), start = rest;
+    start.positions *= 1 + 0.05 * pose;
+    start.positions.col(2).array() += 0.02 * (1 + rest.positions.col(0).array() * (pose - 3));
+    Cloth cloth = make_cloth(start, rest, 0.05, 1800, {});
+    SimulationSettings s = settings(cloth, 0.01);
+    s.integrator.max_iterations = 3;
+    s.integrator.tolerance = 1;
+    s.effects.add(
+        Body{.box = Vector3d(0.02, 2, 0.02), .center = Vector3d(0.013 * pose - 0.05, 0, -0.01), .thickness = 0.005});
+    expect_nothing_to_pass(thrown(s, 3), 0.03);
+  }
+}
+
 TEST_P(Thrown, AStripThatItsPinsWindUpDoesNotPassThroughItself) {
   constexpr int along = 16;
   Mesh mesh = make_grid(along, 2);
