@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <string>
+#include <ostream>
 #include <vector>
 
 #include "sim/spring_network.hpp"
@@ -14,7 +14,6 @@ namespace drape::test::sim_spring_network {
 namespace {
 
 struct Case {
-  std::string name;
   int vertices;
   std::vector<Spring> springs;
 };
@@ -23,8 +22,8 @@ Spring random_spring(Random& random, int i, int j) {
   return {.i = i, .j = j, .rest_length = random.between(0, 0.5), .stiffness = random.between(1, 500)};
 }
 
-Case springs_of(std::string name, const Mesh& mesh) {
-  Case result{std::move(name), static_cast<int>(mesh.positions.rows()), cloth_of(mesh, 1, 180, {}).springs};
+Case springs_of(const Mesh& mesh) {
+  Case result{static_cast<int>(mesh.positions.rows()), cloth_of(mesh, 1, 180, {}).springs};
   Random random;
   for (Spring& spring : result.springs) spring.stiffness = random.between(1, 500);
   return result;
@@ -32,7 +31,7 @@ Case springs_of(std::string name, const Mesh& mesh) {
 
 /// Makes springs (i, i + offset) in runs of every length, separated by gaps of every size.
 Case runs_and_gaps() {
-  Case result{"RunsAndGaps", 0, {}};
+  Case result{0, {}};
   Random random;
   int i = 0;
   for (const int length : {1, 2, 3, 7, 8, 15, 16, 17, 20, 33, 64, 255, 256, 257, 300, 520}) {
@@ -44,7 +43,7 @@ Case runs_and_gaps() {
 }
 
 Case duplicates() {
-  Case result = springs_of("Duplicates", make_grid(20, 6));
+  Case result = springs_of(make_grid(20, 6));
   Random random;
   const std::size_t count = result.springs.size();
   for (std::size_t s = 0; s < count; s += 2) {
@@ -56,7 +55,7 @@ Case duplicates() {
 }
 
 Case shuffled() {
-  Case result = springs_of("Shuffled", make_grid(13, 9));
+  Case result = springs_of(make_grid(13, 9));
   Random random;
   for (std::size_t s = result.springs.size(); s > 1; --s) {
     std::swap(result.springs[s - 1], result.springs[static_cast<std::size_t>(random.below(static_cast<int>(s)))]);
@@ -65,7 +64,7 @@ Case shuffled() {
 }
 
 Case scattered() {
-  Case result{"Scattered", 500, {}};
+  Case result{500, {}};
   Random random;
   for (int s = 0; s < 1500; ++s) {
     const int i = random.below(499);
@@ -74,69 +73,85 @@ Case scattered() {
   return result;
 }
 
-std::vector<Case> cases() {
-  Random random;
-  return {springs_of("HomeworksGrid", make_grid(20, 20)),
-          springs_of("LongGrid", make_grid(300, 2)),
-          springs_of("SmallGrid", make_grid(1, 1)),
-          springs_of("Irregular", irregular_mesh(15)),
-          springs_of("ThreeTrianglesOnAnEdge", three_sheets(9)),
-          runs_and_gaps(),
-          duplicates(),
-          shuffled(),
-          scattered(),
-          {"Single", 2, {random_spring(random, 0, 1)}},
-          {"Empty", 3, {}}};
-}
-
 double energy_of(const SpringNetwork& network, const Vertices& x) {
   Vertices ignored = Vertices::Zero(x.rows(), 3);
   return network.add_value_gradient(x, ignored);
 }
 
-class SpringNetworkOf : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Springs, SpringNetworkOf, testing::ValuesIn(cases()),
+/// Case that only its tests make: every process lists all tests first.
+struct NamedCase {
+  const char* name;
+  Case (*make)();
+};
+void PrintTo(const NamedCase& tested, std::ostream* out) { *out << tested.name; }
+
+constexpr NamedCase cases[] = {
+    {"HomeworksGrid", [] { return springs_of(make_grid(20, 20)); }},
+    {"LongGrid", [] { return springs_of(make_grid(300, 2)); }},
+    {"SmallGrid", [] { return springs_of(make_grid(1, 1)); }},
+    {"Irregular", [] { return springs_of(irregular_mesh(15)); }},
+    {"ThreeTrianglesOnAnEdge", [] { return springs_of(three_sheets(9)); }},
+    {"RunsAndGaps", runs_and_gaps},
+    {"Duplicates", duplicates},
+    {"Shuffled", shuffled},
+    {"Scattered", scattered},
+    {"Single",
+     [] {
+       Random random;
+       return Case{2, {random_spring(random, 0, 1)}};
+     }},
+    {"Empty",
+     [] {
+       return Case{3, {}};
+     }},
+};
+
+class SpringNetworkOf : public testing::TestWithParam<NamedCase> {
+ protected:
+  const Case case_ = GetParam().make();
+};
+INSTANTIATE_TEST_SUITE_P(Springs, SpringNetworkOf, testing::ValuesIn(cases),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST_P(SpringNetworkOf, HasTheEnergyOfTheFormula) {
-  const Vertices x = random_vertices(GetParam().vertices, 77);
-  const double expected = plain_energy(GetParam().springs, x);
-  EXPECT_NEAR(energy_of(SpringNetwork(GetParam().springs, GetParam().vertices), x), expected, 1e-13 * expected);
+  const Vertices x = random_vertices(case_.vertices, 77);
+  const double expected = plain_energy(case_.springs, x);
+  EXPECT_NEAR(energy_of(SpringNetwork(case_.springs, case_.vertices), x), expected, 1e-13 * expected);
 }
 
 TEST_P(SpringNetworkOf, AddsTheGradientOfTheFormula) {
-  const Vertices x = random_vertices(GetParam().vertices, 77);
-  const Vertices already = random_vertices(GetParam().vertices, 78);
+  const Vertices x = random_vertices(case_.vertices, 77);
+  const Vertices already = random_vertices(case_.vertices, 78);
   Vertices gradient = already;
-  const SpringNetwork network(GetParam().springs, GetParam().vertices);
+  const SpringNetwork network(case_.springs, case_.vertices);
   const double value = network.add_value_gradient(x, gradient);
-  const Vertices expected = already + plain_gradient(GetParam().springs, x);
+  const Vertices expected = already + plain_gradient(case_.springs, x);
   EXPECT_LE((gradient - expected).cwiseAbs().maxCoeff(), 1e-13 * (1 + expected.cwiseAbs().maxCoeff()));
-  EXPECT_NEAR(value, plain_energy(GetParam().springs, x), 1e-13 * value);
+  EXPECT_NEAR(value, plain_energy(case_.springs, x), 1e-13 * value);
 }
 
 TEST_P(SpringNetworkOf, AddsInertiaToTheObjective) {
-  const Vertices x = random_vertices(GetParam().vertices, 77), y = random_vertices(GetParam().vertices, 78);
-  const Eigen::VectorXd inertia = random_vertices(GetParam().vertices, 79).col(0).cwiseAbs();
+  const Vertices x = random_vertices(case_.vertices, 77), y = random_vertices(case_.vertices, 78);
+  const Eigen::VectorXd inertia = random_vertices(case_.vertices, 79).col(0).cwiseAbs();
   Vertices gradient = Vertices::Constant(x.rows(), 3, 1e9);  // old content is overwritten
-  const double value = SpringNetwork(GetParam().springs, GetParam().vertices).evaluate(inertia, y, x, gradient);
+  const double value = SpringNetwork(case_.springs, case_.vertices).evaluate(inertia, y, x, gradient);
   const Vertices pull = (x - y).array().colwise() * inertia.array();
-  const Vertices expected = plain_gradient(GetParam().springs, x) + pull;
+  const Vertices expected = plain_gradient(case_.springs, x) + pull;
   EXPECT_LE((gradient - expected).cwiseAbs().maxCoeff(), 1e-13 * (1 + expected.cwiseAbs().maxCoeff()));
-  const double energy = plain_energy(GetParam().springs, x) + 0.5 * pull.cwiseProduct(x - y).sum();
+  const double energy = plain_energy(case_.springs, x) + 0.5 * pull.cwiseProduct(x - y).sum();
   EXPECT_NEAR(value, energy, 1e-13 * energy);
 }
 
 TEST_P(SpringNetworkOf, KicksWithTheGradientOfWhereTheClothWas) {
-  const Vertices start = random_vertices(GetParam().vertices, 77), velocity = random_vertices(GetParam().vertices, 78);
-  const Vertices force = random_vertices(GetParam().vertices, 79);
-  const Eigen::VectorXd factor = random_vertices(GetParam().vertices, 80).col(0);
+  const Vertices start = random_vertices(case_.vertices, 77), velocity = random_vertices(case_.vertices, 78);
+  const Vertices force = random_vertices(case_.vertices, 79);
+  const Eigen::VectorXd factor = random_vertices(case_.vertices, 80).col(0);
   constexpr double h = 0.01;
   constexpr double before = 0.9, after = 0.8;
   Vertices x = start, v = velocity;
-  const double squares = SpringNetwork(GetParam().springs, GetParam().vertices)
+  const double squares = SpringNetwork(case_.springs, case_.vertices)
                              .kick_and_drift(factor, force, {.h = h, .before = before, .after = after}, v, x);
-  const Vertices change = (plain_gradient(GetParam().springs, start) - force).array().colwise() * factor.array();
+  const Vertices change = (plain_gradient(case_.springs, start) - force).array().colwise() * factor.array();
   const Vertices moving = before * (velocity + change);
   EXPECT_LE((v - after * moving).cwiseAbs().maxCoeff(), 1e-13 * (1 + change.cwiseAbs().maxCoeff()));
   EXPECT_LE((x - start - h * moving).cwiseAbs().maxCoeff(), 1e-13 * (1 + moving.cwiseAbs().maxCoeff()));
@@ -144,9 +159,9 @@ TEST_P(SpringNetworkOf, KicksWithTheGradientOfWhereTheClothWas) {
 }
 
 TEST_P(SpringNetworkOf, HasTheGradientOfItsEnergy) {
-  if (GetParam().springs.empty()) return;
-  const SpringNetwork network(GetParam().springs, GetParam().vertices);
-  const Vertices x = random_vertices(GetParam().vertices, 77);
+  if (case_.springs.empty()) return;
+  const SpringNetwork network(case_.springs, case_.vertices);
+  const Vertices x = random_vertices(case_.vertices, 77);
   Vertices gradient = Vertices::Zero(x.rows(), 3);
   network.add_value_gradient(x, gradient);
   // Along a direction that differs at every vertex: (E(x + εd) − E(x − εd))/2ε has an error of ε²‖E'''‖/6 plus the
@@ -162,11 +177,11 @@ TEST_P(SpringNetworkOf, HasTheGradientOfItsEnergy) {
 }
 
 TEST_P(SpringNetworkOf, RemembersTheSpringsAsGiven) {
-  const SpringNetwork network(GetParam().springs, GetParam().vertices);
-  ASSERT_EQ(network.springs().size(), GetParam().springs.size());
-  for (std::size_t s = 0; s < GetParam().springs.size(); ++s) {
-    EXPECT_EQ(network.springs()[s].i, GetParam().springs[s].i);
-    EXPECT_EQ(network.springs()[s].j, GetParam().springs[s].j);
+  const SpringNetwork network(case_.springs, case_.vertices);
+  ASSERT_EQ(network.springs().size(), case_.springs.size());
+  for (std::size_t s = 0; s < case_.springs.size(); ++s) {
+    EXPECT_EQ(network.springs()[s].i, case_.springs[s].i);
+    EXPECT_EQ(network.springs()[s].j, case_.springs[s].j);
   }
 }
 
