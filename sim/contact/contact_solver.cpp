@@ -425,8 +425,8 @@ void ContactSolver::retreat(ContactProblem& problem, Iterate& point) {
   for (int round = 0; round < most_rounds && carried() && any_collides(); ++round) move_with_obstacles(point.x);
   const Vertices way = point.x - start_;
   double part = 1;
-  for (int halving = 0; halving < most_halvings && any_collides(); ++halving) {
-    part /= 2;
+  for (int halving = 0; halving <= most_halvings && any_collides(); ++halving) {
+    part = halving < most_halvings ? part / 2 : 0;
     point.x = start_ + part * way;
     find(point.x, true);
   }

@@ -23,7 +23,10 @@ constexpr double touch_reach = 1.25;   // largest gap of touching features, in d
 constexpr int most_steps_ahead = 8;    // steps that one search of self-collision covers
 constexpr double way_ahead = 1.5;      // longest way of a vertex in these steps, in distances
 constexpr double path_slack = 0.35;    // largest deviation from it, in distances
-constexpr double resolved = 1e-9;      // least length of a difference with a direction, as a fraction of the distance
+constexpr double least_gap =
+    1e-6;  // a smaller gap must not shrink, as a fraction of the distance: rounding could close it
+constexpr double kept_shrink = 1e-4;  // decrease of such a gap that counts as rounding, as a fraction of it
+constexpr double resolved = 1e-9;     // least length of a difference with a direction, as a fraction of the distance
 
 Point plane_normal(Feature feature, const FourPoints& p) {
   const bool edges = feature == Feature::edge_edge;
@@ -72,6 +75,13 @@ std::array<int, 4> passed_vertices(const Entanglement::Passed& passed) {
 std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool held) {
   const auto& [feature, from, to, before] = ways;
   if (!(before > 0)) return std::nullopt;
+  if (before < least_gap * distance) {
+    const Nearest near = nearest(feature, from);
+    if (const Point plane = plane_normal(feature, from); inside(near.weights, feature) && !plane.isZero(0)) {
+      const Point apart = plane.dot(near.difference(from)) < 0 ? Point(-plane) : plane;
+      if (!kept_apart(feature, apart, from, to, (1 - kept_shrink) * before)) return Touch{near.weights, apart, true};
+    }
+  }
   FourPoints move;
   for (Index i = 0; i < 4; ++i) move[i] = to[i] - from[i];
   if (const auto time = time_of_impact(feature, from, move, impact_share * distance)) {

@@ -11,6 +11,7 @@
 #include "sim/collision/candidates.hpp"
 #include "sim/collision/distance.hpp"
 #include "sim/contact/impulse_contact.hpp"
+#include "sim/contact/mesh_contacts.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
@@ -132,6 +133,39 @@ TEST(TimeOfImpact, OfCrossingEdgesIsKnown) {
   ASSERT_TRUE(time);
   EXPECT_NEAR(*time, 0.3, 0.03);
   EXPECT_FALSE(time_of_impact(Feature::edge_edge, p, {o, o, down, down}));
+}
+
+// Steps that end early approach an obstacle ever more closely. However many there are, the gap stays far larger than
+// the rounding of a metre.
+TEST(Touch, LeavesAGapWhateverTheNumberOfShortenedSteps) {
+  const Point o(0, 0, 0), down(0.1, 0.2, -1);
+  for (const Feature feature : both) {
+    const FourPoints rest = feature == Feature::edge_edge
+                                ? FourPoints{Point(-1, 0, 1), Point(1, 0, 1), Point(0, -1, 0), Point(0, 1, 0)}
+                                : FourPoints{Point(0.2, 0.2, 1), o, Point(1, 0, 0), Point(0, 1, 0)};
+    FourPoints p = rest;
+    const double thickness = 0.005;
+    for (int step = 0; step < 200; ++step) {
+      FourPoints to = p;
+      for (double part = 1; part > 0; part /= 2) {
+        to[0] = p[0] + part * down;
+        if (feature == Feature::edge_edge) to[1] = p[1] + part * down;
+        const auto touch = find_touch({feature, p, to, distance(feature, p)}, thickness, false);
+        if (!touch || !touch->collides) break;
+        to = p;
+      }
+      p = to;
+    }
+    EXPECT_GT(p[0].z(), 1e-6 * thickness / 10);
+    EXPECT_LT(p[0].z(), thickness);
+    const auto resting = find_touch({feature, p, p, distance(feature, p)}, thickness, true);
+    EXPECT_TRUE(resting && !resting->collides);
+    FourPoints up = p;
+    up[0].z() += 1e-3;
+    if (feature == Feature::edge_edge) up[1].z() += 1e-3;
+    const auto leaving = find_touch({feature, p, up, distance(feature, p)}, thickness, true);
+    EXPECT_TRUE(leaving && !leaving->collides) << "leaves as far as it likes";
+  }
 }
 
 // The cubic of four coplanar points is always zero, but distances still determine an impact.
