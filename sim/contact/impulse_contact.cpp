@@ -20,6 +20,7 @@ constexpr int most_contact_rounds = 10;  // searches for contacts before collidi
 constexpr int most_impulse_passes = 60;  // per round
 constexpr int most_held_rounds = 60;     // rounds after which all zones are joined
 constexpr double settled_share = 1e-3;   // convergence tolerance of a pass, as a fraction of the contact distance
+constexpr double beyond_share = 1e-2;    // missing distance at which a step falls short, as a fraction of the largest
 constexpr double ended_share = 1e-2;  // largest change of a last pass over end velocities, as a fraction of the first's
 constexpr double near_share = 0.1;  // largest move of a solve without a new search, as a fraction of the least distance
 constexpr double least_correction = 1e-9;  // added to the tolerance of a pass [m]
@@ -109,6 +110,7 @@ void ImpulseContact::begin(const State& state, double) { flight_.start_v = state
 
 void ImpulseContact::apply(const Vertices& x, double time, double h, Vertices& v) {
   converged_ = true;
+  beyond_ = false;
   impulses_.clear();
   x_ = &x;
   flight_.h = h;
@@ -133,30 +135,43 @@ bool ImpulseContact::adjust(const Vertices& x, double, double h, Vertices& v) {
   return true;
 }
 
+double ImpulseContact::missing(const Impulse& impulse) const {
+  const ContactConstraint& contact = impulse.contact;
+  return contact.distance + impulse.bounce.gap - contact.place(target_).dot(contact.normal);
+}
+
 bool ImpulseContact::violated() const {
   return std::ranges::any_of(impulses_, [&](const Impulse& impulse) {
     const ContactConstraint& contact = impulse.contact;
-    const Eigen::Vector3d place = contact.place(target_);
-    if (contact.welds) return place.norm() > closed_gap;
-    const double missing = contact.distance + impulse.bounce.gap - place.dot(contact.normal);
-    return contact.collides || missing > tolerance_of(contact);
+    if (contact.welds) return contact.place(target_).norm() > closed_gap;
+    return contact.collides || missing(impulse) > tolerance_of(contact);
+  });
+}
+
+bool ImpulseContact::falls_short() const {
+  double distance = 0;
+  for (const Impulse& impulse : impulses_) distance = std::max(distance, impulse.contact.distance);
+  return std::ranges::any_of(impulses_, [&](const Impulse& impulse) {
+    if (impulse.contact.welds) return impulse.contact.place(target_).norm() > closed_gap;
+    return missing(impulse) > beyond_share * distance + least_correction;
   });
 }
 
 void ImpulseContact::settle(Vertices& v) {
-  bool found = false;
+  bool found = false, settled = false;
   for (int round = 0; round < most_contact_rounds; ++round) {
     check_stop();
     const bool collided = any_collides();
     before_target_ = target_;
     apply_known();
-    solve();
+    settled = solve();
     found = !collided && stays_as_found();
     if (found) break;
     find();
     found = !any_collides();
     if (found) break;
   }
+  beyond_ = !settled && falls_short();
   if (!found) hold();
   for (Eigen::Index i = 0; i < v.rows(); ++i) {
     if (target_.row(i) != flight_.target.row(i)) v.row(i) = (target_.row(i) - x_->row(i)) / flight_.h;
@@ -216,7 +231,7 @@ Eigen::Vector3d ImpulseContact::change_of(const Impulse& impulse, double missing
   return normal * n + across - contact.force;
 }
 
-void ImpulseContact::solve() {
+bool ImpulseContact::solve() {
   for (int pass = 0; pass < most_impulse_passes; ++pass) {
     check_stop();
     bool moved = false;
@@ -231,8 +246,9 @@ void ImpulseContact::solve() {
       contact.push(inverse_masses_, change, target_);
       if (impulse.compliance * change.norm() > tolerance_of(contact)) moved = true;
     }
-    if (!moved) return;
+    if (!moved) return true;
   }
+  return false;
 }
 
 bool ImpulseContact::stays_as_found() const {

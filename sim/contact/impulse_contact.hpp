@@ -37,7 +37,8 @@ void move_rigidly(const std::vector<std::array<int, 4>>& groups, bool all, const
 /// Restitution follows Newton's law, see Bounce.
 ///
 /// After a few rounds, vertices that still collide move with the obstacle or as a rigid body, see move_rigidly. The
-/// step then counts as not converged.
+/// step then counts as not converged, and so does one whose passes end at their limit short
+/// of a hundredth of the contact distance.
 class ImpulseContact final : public MotionFilter {
  public:
   /// @param system with its contacts, springs and gravity
@@ -47,7 +48,7 @@ class ImpulseContact final : public MotionFilter {
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
   bool adjust(const Vertices& x, double time, double h, Vertices& v) override;
   void finish(Vertices& v) override;
-  [[nodiscard]] bool done() const override { return converged_; }
+  [[nodiscard]] bool done() const override { return converged_ && !beyond_; }
 
  private:
   /// A contact with its impulse in this step.
@@ -59,12 +60,16 @@ class ImpulseContact final : public MotionFilter {
   void find();
   /// Solves the known contacts and finds more until none is missed; sets v so that the vertices end there.
   void settle(Vertices& v);
+  /// Returns the distance by which the target violates a contact, negative if it does not [m].
+  [[nodiscard]] double missing(const Impulse& impulse) const;
   /// Returns true if the target violates a contact.
   [[nodiscard]] bool violated() const;
+  /// Returns true if the target violates a contact by so much that the step has not converged.
+  [[nodiscard]] bool falls_short() const;
   /// Sets the target to the end of free flight, plus the effect of known forces.
   void apply_known();
-  /// Repeats passes over all contacts until they no longer move.
-  void solve();
+  /// Repeats passes over all contacts until they no longer move. Returns false if the last pass still moved them.
+  [[nodiscard]] bool solve();
   /// Returns the change of a contact's force, given its missing distance along the normal and its slip; of a weld,
   /// given its gap as the slip.
   [[nodiscard]] static Eigen::Vector3d change_of(const Impulse& impulse, double missing, const Eigen::Vector3d& slip);
@@ -84,6 +89,7 @@ class ImpulseContact final : public MotionFilter {
   FreeFlight flight_;
   Vertices target_, before_target_;
   bool converged_ = true;
+  bool beyond_ = false;  // true if the last solve ended at the limit of its passes and falls short
 };
 
 }  // namespace drape
