@@ -37,8 +37,8 @@ void move_rigidly(const std::vector<std::array<int, 4>>& groups, bool all, const
 /// Restitution follows Newton's law, see Bounce.
 ///
 /// After a few rounds, vertices that still collide move with the obstacle or as a rigid body, see move_rigidly. The
-/// step then counts as not converged, and so does one whose passes end at their limit short
-/// of a hundredth of the contact distance.
+/// step then counts as not converged. So does one whose passes end at their limit, if a contact still misses a
+/// hundredth of the contact distance.
 class ImpulseContact final : public MotionFilter {
  public:
   /// @param system with its contacts, springs and gravity

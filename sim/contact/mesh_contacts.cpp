@@ -23,10 +23,9 @@ constexpr double touch_reach = 1.25;   // largest gap of touching features, in d
 constexpr int most_steps_ahead = 8;    // steps that one search of self-collision covers
 constexpr double way_ahead = 1.5;      // longest way of a vertex in these steps, in distances
 constexpr double path_slack = 0.35;    // largest deviation from it, in distances
-constexpr double least_gap =
-    1e-6;  // a smaller gap must not shrink, as a fraction of the distance: rounding could close it
-constexpr double kept_shrink = 1e-4;  // decrease of such a gap that counts as rounding, as a fraction of it
-constexpr double resolved = 1e-9;     // least length of a difference with a direction, as a fraction of the distance
+constexpr double least_gap = 1e-6;     // a smaller gap must not shrink, since rounding could close it, in distances
+constexpr double kept_shrink = 1e-4;   // decrease of such a gap that counts as rounding, as a fraction of it
+constexpr double resolved = 1e-9;      // least length of a difference with a direction, as a fraction of the distance
 
 Point plane_normal(Feature feature, const FourPoints& p) {
   const bool edges = feature == Feature::edge_edge;
