@@ -130,21 +130,23 @@ bool ImpulseContact::adjust(const Vertices& x, double, double h, Vertices& v) {
   if (!target_.allFinite()) return false;
   flight_.mean = (flight_.target - x) / h;
   find();
-  if (!violated()) return false;
+  if (!any_violated()) return false;
   settle(v);
   return true;
 }
 
-double ImpulseContact::missing(const Impulse& impulse) const {
-  const ContactConstraint& contact = impulse.contact;
-  return contact.distance + impulse.bounce.gap - contact.place(target_).dot(contact.normal);
+double ImpulseContact::shortfall(const Impulse& impulse, const Eigen::Vector3d& place) {
+  return impulse.contact.distance + impulse.bounce.gap - place.dot(impulse.contact.normal);
 }
 
-bool ImpulseContact::violated() const {
+bool ImpulseContact::is_violated(const Impulse& impulse, double tolerance) const {
+  const Eigen::Vector3d place = impulse.contact.place(target_);
+  return impulse.contact.welds ? place.norm() > closed_gap : shortfall(impulse, place) > tolerance;
+}
+
+bool ImpulseContact::any_violated() const {
   return std::ranges::any_of(impulses_, [&](const Impulse& impulse) {
-    const ContactConstraint& contact = impulse.contact;
-    if (contact.welds) return contact.place(target_).norm() > closed_gap;
-    return contact.collides || missing(impulse) > tolerance_of(contact);
+    return impulse.contact.collides || is_violated(impulse, tolerance_of(impulse.contact));
   });
 }
 
@@ -152,8 +154,7 @@ bool ImpulseContact::falls_short() const {
   double distance = 0;
   for (const Impulse& impulse : impulses_) distance = std::max(distance, impulse.contact.distance);
   return std::ranges::any_of(impulses_, [&](const Impulse& impulse) {
-    if (impulse.contact.welds) return impulse.contact.place(target_).norm() > closed_gap;
-    return missing(impulse) > beyond_share * distance + least_correction;
+    return is_violated(impulse, beyond_share * distance + least_correction);
   });
 }
 
@@ -238,9 +239,8 @@ bool ImpulseContact::solve() {
     for (Impulse& impulse : impulses_) {
       ContactConstraint& contact = impulse.contact;
       const Eigen::Vector3d place = contact.place(target_);
-      const double missing = contact.distance + impulse.bounce.gap - place.dot(contact.normal);
       const Eigen::Vector3d slip = contact.welds ? place : Eigen::Vector3d(place - contact.start);
-      const Eigen::Vector3d change = change_of(impulse, missing, slip);
+      const Eigen::Vector3d change = change_of(impulse, shortfall(impulse, place), slip);
       if (change.isZero(0)) continue;
       contact.force += change;
       contact.push(inverse_masses_, change, target_);

@@ -60,10 +60,12 @@ class ImpulseContact final : public MotionFilter {
   void find();
   /// Solves the known contacts and finds more until none is missed; sets v so that the vertices end there.
   void settle(Vertices& v);
-  /// Returns the distance by which the target violates a contact, negative if it does not [m].
-  [[nodiscard]] double missing(const Impulse& impulse) const;
+  /// Returns the distance that a contact misses where its features are at `place`, negative if it misses none [m].
+  [[nodiscard]] static double shortfall(const Impulse& impulse, const Eigen::Vector3d& place);
+  /// Returns true if the target misses more than a tolerance of a contact [m], or opens a weld.
+  [[nodiscard]] bool is_violated(const Impulse& impulse, double tolerance) const;
   /// Returns true if the target violates a contact.
-  [[nodiscard]] bool violated() const;
+  [[nodiscard]] bool any_violated() const;
   /// Returns true if the target violates a contact by so much that the step has not converged.
   [[nodiscard]] bool falls_short() const;
   /// Sets the target to the end of free flight, plus the effect of known forces.

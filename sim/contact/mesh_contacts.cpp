@@ -39,6 +39,14 @@ bool inside(const std::array<double, 4>& weights, Feature feature) {
   return std::none_of(first, weights.end(), [](double w) { return w == 0; });
 }
 
+/// Returns the unit normal of the plane between features whose closest points lie inside both, from the second to the
+/// first. Zero if one of the points is at an end or rim, or if the features have no such plane.
+Point normal_between(Feature feature, const Nearest& near, const FourPoints& p) {
+  if (!inside(near.weights, feature)) return Point::Zero();
+  const Point plane = plane_normal(feature, p);
+  return plane.dot(near.difference(p)) < 0 ? Point(-plane) : plane;
+}
+
 ContactKey key_of(const FeaturePair& pair, int source) {
   return {source, static_cast<int>(pair.feature), pair.vertices};
 }
@@ -76,10 +84,9 @@ std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool h
   if (!(before > 0)) return std::nullopt;
   if (before < least_gap * distance) {
     const Nearest near = nearest(feature, from);
-    if (const Point plane = plane_normal(feature, from); inside(near.weights, feature) && !plane.isZero(0)) {
-      const Point apart = plane.dot(near.difference(from)) < 0 ? Point(-plane) : plane;
-      if (!kept_apart(feature, apart, from, to, (1 - kept_shrink) * before)) return Touch{near.weights, apart, true};
-    }
+    const Point between = normal_between(feature, near, from);
+    if (!between.isZero(0) && !kept_apart(feature, between, from, to, (1 - kept_shrink) * before))
+      return Touch{near.weights, between, true};
   }
   FourPoints move;
   for (Index i = 0; i < 4; ++i) move[i] = to[i] - from[i];
@@ -92,17 +99,12 @@ std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool h
   }
   const Nearest near = nearest(feature, to);
   if (!held && near.squared >= 1.5 * distance * distance) return std::nullopt;
+  const bool within = inside(near.weights, feature);
   // Vertex-triangle pairs cover the ends of edges.
-  if (feature == Feature::edge_edge && !inside(near.weights, feature)) return std::nullopt;
-  const Point difference = near.difference(to);
-  Point normal = difference.normalized();
-  if (inside(near.weights, feature)) {
-    const Point plane = plane_normal(feature, to);
-    if (!plane.isZero(0)) normal = plane.dot(difference) < 0 ? Point(-plane) : plane;
-  } else if (!(std::sqrt(near.squared) > resolved * distance)) {
-    return std::nullopt;
-  }
-  return Touch{near.weights, normal, false};
+  if (feature == Feature::edge_edge && !within) return std::nullopt;
+  if (!within && !(std::sqrt(near.squared) > resolved * distance)) return std::nullopt;
+  const Point between = normal_between(feature, near, to);
+  return Touch{near.weights, between.isZero(0) ? Point(near.difference(to).normalized()) : between, false};
 }
 
 SelfContacts::SelfContacts(const ContactTerms& terms, const Cloth& cloth, const Threads& threads,

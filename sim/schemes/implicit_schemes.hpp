@@ -178,6 +178,7 @@ class BackwardEuler final : public MinimisingScheme {
   void balance_in_contact();
 
   /// Minimises the objective from the point, under the contacts of a step that began at contact_->begin().
+  /// Gives a free cloth that no obstacle holds the momentum of its forces.
   /// @param steady positions reached at constant velocities; empty without contacts
   StepReport solve_step(const Vertices& steady, const std::function<bool()>& may_end);
 
