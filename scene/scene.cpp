@@ -362,6 +362,13 @@ LoadedScene make_scene(TomlValue document, const std::filesystem::path& file, co
     }
     const bool implicit = !is_explicit(integrator.method) && integrator.method != Method::automatic;
     if (scene.simulation.accuracy && implicit) integrator.scheme = TimeScheme::sdirk2;
+    if (scene.simulation.accuracy && integrator.method == Method::semi_implicit) {
+      const TomlValue* table = find_path(document, "integrator");
+      source.warnings.push_back(
+          problems.text(place_of(*table, "method")) +
+          ": method: an accuracy in [time] is reached with \"verlet\", not with \"semi-implicit\"");
+      integrator.method = Method::verlet;
+    }
   }
   if (reader.good("camera")) checks.camera();
   if (reader.good("look")) checks.samples();

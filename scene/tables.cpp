@@ -91,10 +91,11 @@ Keys time_keys(Scene& scene) {
   Keys keys;
   keys.add("step", &scene.simulation.step, "s", "Length of a time step.").above(0);
   keys.add("accuracy", &scene.simulation.accuracy, "m",
-           "Limit on the error that a step may add to any vertex. Steps are cut into substeps; `scheme`, `tolerance` "
-           "and `stop` follow, see [accuracy.md](../notes/accuracy.md#asking-for-an-accuracy).")
+           "Largest error a step may add to any vertex. Steps are cut into substeps (explicit: `verlet`); "
+           "`scheme`, `tolerance` and `stop` follow "
+           "([accuracy.md](../notes/accuracy.md#asking-for-an-accuracy)).")
       .above(0);
-  keys.add("duration", &scene.duration, "s", "Length of the scene, rounded to whole steps.")
+  keys.add("duration", &scene.duration, "s", "The scene's length, rounded to whole steps.")
       .at_least(0)
       .omit_from_hash();
   return keys;

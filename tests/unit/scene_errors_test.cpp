@@ -169,6 +169,22 @@ TEST(SceneErrors, AnAccuracyIsANumberAboveZeroAndStandsAlone) {
   }
 }
 
+// Explicit substeps of a required accuracy are velocity Verlet's, which all records then name.
+TEST(SceneErrors, AnAccuracyIsReachedWithVerletInsteadOfSemiImplicitEuler) {
+  const SceneFolder folder;
+  const std::string method = "\n[integrator]\nmethod = \"semi-implicit\"\n";
+  const LoadedScene asked = folder.load(with("time", "accuracy = 1e-3") + method);
+  ASSERT_EQ(asked.source.warnings.size(), 1U);
+  EXPECT_TRUE(asked.source.warnings[0].ends_with(
+      "scene.toml:8:10: method: an accuracy in [time] is reached with \"verlet\", not with \"semi-implicit\""))
+      << asked.source.warnings[0];
+  EXPECT_EQ(asked.simulation.integrator.method, Method::verlet);
+
+  const LoadedScene steps = folder.load(with("time", "step = 1e-3") + method);
+  EXPECT_TRUE(steps.source.warnings.empty());
+  EXPECT_EQ(steps.simulation.integrator.method, Method::semi_implicit);
+}
+
 TEST(SceneErrors, NoNumberIsNanOrInfinite) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems(with("cloth", "mass = nan")), "scene.toml:5:8: mass must be finite, found nan");
