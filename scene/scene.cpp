@@ -362,13 +362,6 @@ LoadedScene make_scene(TomlValue document, const std::filesystem::path& file, co
     }
     const bool implicit = !is_explicit(integrator.method) && integrator.method != Method::automatic;
     if (scene.simulation.accuracy && implicit) integrator.scheme = TimeScheme::sdirk2;
-    if (scene.simulation.accuracy && integrator.method == Method::semi_implicit) {
-      const TomlValue* table = find_path(document, "integrator");
-      source.warnings.push_back(
-          problems.text(place_of(*table, "method")) +
-          ": method: an accuracy in [time] is reached with \"verlet\", not with \"semi-implicit\"");
-      integrator.method = Method::verlet;
-    }
   }
   if (reader.good("camera")) checks.camera();
   if (reader.good("look")) checks.samples();
@@ -388,6 +381,11 @@ LoadedScene make_scene(TomlValue document, const std::filesystem::path& file, co
   if (scene.simulation.integrator.method == Method::automatic) {
     name_method(scene, document, problems);
     list_fields();
+  }
+  if (scene.simulation.accuracy && scene.simulation.integrator.method == Method::semi_implicit) {
+    source.warnings.push_back(problems.text(place_of(*find_path(document, "integrator"), "method")) +
+                              ": method: an accuracy in [time] is reached with \"verlet\", not with \"semi-implicit\"");
+    scene.simulation.integrator.method = Method::verlet;
   }
   source.tables = physics_of_tables(written_tables(cloths, scene, effects, document), folder);
   source.portable = make_portable(document, folder, source.inputs);

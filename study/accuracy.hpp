@@ -182,6 +182,8 @@ struct AccuracyCases {
   std::vector<StepCase> steps;  ///< each step solved to the end
   std::vector<StepCase> asked;  ///< cases with an accuracy
   std::vector<StepCase> fixed;  ///< cases with a time step and the default tolerance
+  /// One of each method that fails only if the method cannot compute the scene with any step.
+  std::vector<StudyCase> easiest;
 };
 
 /// Removes methods that cannot compute the scene with any step, unless no method would remain.

@@ -8,6 +8,7 @@
 #include "tests/support/matrices.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/plain_springs.hpp"
+#include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {
@@ -165,6 +166,34 @@ TEST_F(ContactsOfNewtonsEquations, LeaveNoTraceOnceTheyAreForgotten) {
     solver.forget_contacts();
     EXPECT_EQ(solve(solver, contacts), solve(fresh, contacts));
   }
+}
+
+// Contacts between vertices anywhere make a cloth's factor almost that of a full matrix. Then the cloth is solved
+// without them, and so it stays until they are forgotten.
+TEST(NewtonsFactor, LeavesOutContactsThatMakeItTooExpensive) {
+  const Cloth cloth = cloth_of(make_grid(110, 110), 1, 180, {0});
+  const System system{cloth, 0.02};
+  const StepObjective objective{system, system.step};
+  const Vertices b = forces(cloth, 2);
+  const auto solve = [&](NewtonCholesky& solver) {
+    Vertices direction(cloth.vertex_count(), 3);
+    solver.solve(cloth.positions, b, 0, direction);
+    return direction;
+  };
+  Random random(3);
+  std::vector<ContactBlock> many(40000);
+  for (ContactBlock& contact : many) {
+    const int one = random.below(cloth.vertex_count()), other = random.below(cloth.vertex_count());
+    contact = {2, {one, other}, {1, -1}, 5000 * Eigen::Matrix3d::Identity()};
+  }
+  NewtonCholesky solver(system, objective), fresh(system, objective);
+  const Vertices without = solve(fresh);
+  EXPECT_FALSE(solver.set_contacts(many));
+  EXPECT_EQ(solve(solver), without);
+  EXPECT_FALSE(solver.set_contacts({many.front()}));
+  solver.forget_contacts();
+  EXPECT_TRUE(solver.set_contacts({many.front()}));
+  EXPECT_NE(solve(solver), without);
 }
 
 }  // namespace
