@@ -386,6 +386,7 @@ LoadedScene make_scene(TomlValue document, const std::filesystem::path& file, co
     source.warnings.push_back(problems.text(place_of(*find_path(document, "integrator"), "method")) +
                               ": method: an accuracy in [time] is reached with \"verlet\", not with \"semi-implicit\"");
     scene.simulation.integrator.method = Method::verlet;
+    list_fields();
   }
   source.tables = physics_of_tables(written_tables(cloths, scene, effects, document), folder);
   source.portable = make_portable(document, folder, source.inputs);
