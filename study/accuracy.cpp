@@ -365,6 +365,7 @@ void ask(StudyCase& what, StepMethod method, double accuracy) {
   what.overrides.push_back("time.accuracy=" + plain_number(accuracy));
 }
 
+/// Returns a case that fails only if the method cannot compute the scene with any step.
 StudyCase easiest_case(const std::string& file, const AccuracyOptions& options, StepMethod method) {
   StudyCase what = by_default(file, options, method, "");
   ask(what, method, 1);  // so that no step is rejected for its length
