@@ -98,7 +98,7 @@ ExitCode make_of_motion(const std::string& file, const RunArguments& arguments, 
 }
 
 /// Resumes a run, then makes the requested outputs of the whole motion.
-ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
+ExitCode resume_run(const RunArguments& arguments, const CommonOptions& common) {
   if (!arguments.scenes.empty()) {
     throw UsageError(
         fmt::format("--resume {} continues the run of its own scene, and takes no SCENE", arguments.resume));
@@ -188,7 +188,7 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   interruption();  // from here on, a signal stops work cleanly
   if (arguments.scenes.empty() && arguments.resume.empty()) throw UsageError("SCENE is required; see drape --help");
   if (!arguments.drawing) require_no_drawing(arguments.outputs);
-  if (!arguments.resume.empty()) return go_on(arguments, common);
+  if (!arguments.resume.empty()) return resume_run(arguments, common);
   std::vector<LoadedScene> scenes;
   std::vector<RunOptions> options;
   for (SceneToRun& found : load_all(arguments)) {

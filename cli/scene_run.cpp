@@ -69,7 +69,7 @@ class Advice {
       : scene_(scene), document_(document), problems_(scene.source.file, {}), system_(make_system(scene.simulation)) {}
 
   std::vector<std::string> all() && {
-    std::vector<std::string> said = scene_.source.warnings;
+    std::vector<std::string> warnings = scene_.source.warnings;
     without_effect();
     camera();
     steps();
@@ -77,8 +77,8 @@ class Advice {
     for (const StartOverlap& overlap : start_overlaps(scene_.simulation)) {
       found_.push_back(fmt::format("{}: {}", shown(scene_.source.file), overlap_advice(overlap, scene_.simulation)));
     }
-    said.insert(said.end(), found_.begin(), found_.end());
-    return said;
+    warnings.insert(warnings.end(), found_.begin(), found_.end());
+    return warnings;
   }
 
  private:
@@ -247,7 +247,7 @@ SceneRun::SceneRun(const LoadedScene& scene, RunOptions options, const RunArgume
 
 void SceneRun::announce() const {
   spdlog::info(describe(scene_, options_));
-  for (const std::string& doubt : scene_.source.warnings) spdlog::warn(doubt);
+  for (const std::string& warning : scene_.source.warnings) spdlog::warn(warning);
   if (scene_.simulation.integrator.allow_unstable) {
     if (const auto problem = stability_problem(scene_.simulation, make_system(scene_.simulation))) {
       spdlog::warn("{}: {}", shown(scene_.source.file), *problem);
@@ -280,7 +280,7 @@ ExitCode SceneRun::end() {
     print_wrapped(stderr, summarize(result_) + "\n");
     for (const std::string& line : separation_.lines()) print_wrapped(stderr, line + "\n");
   }
-  for (const std::string& doubt : warnings(result_)) spdlog::warn("{}: {}", shown(scene_.source.file), doubt);
+  for (const std::string& warning : warnings(result_)) spdlog::warn("{}: {}", shown(scene_.source.file), warning);
   return conclude();
 }
 

@@ -489,7 +489,7 @@ void SynchronisedMotions::play(int last, const std::stop_token& stop,
 std::optional<CameraPath> SynchronisedMotions::camera_path(int count, const std::stop_token& stop) {
   const Scene& first = scenes_.front();
   struct Stopped {};
-  const auto go_on = [&] {
+  const auto throw_if_stopped = [&] {
     if (stop.stop_requested()) throw Stopped();
   };
   try {
@@ -497,12 +497,12 @@ std::optional<CameraPath> SynchronisedMotions::camera_path(int count, const std:
     if (!camera.position) {
       camera = well_placed(camera, known_film(first, first.video.size, first_count_, [&](const auto& visit) {
                              sources_.front().pass(visit, stop);
-                             go_on();
+                             throw_if_stopped();
                            }));
     }
     return drape::camera_path(camera, known_film(first, first.video.size, count, [&](const auto& visit) {
                                 play(count - 1, stop, [&](int, const Moment& moment) { visit(together(moment)); });
-                                go_on();
+                                throw_if_stopped();
                               }));
   } catch (const Stopped&) {
     return std::nullopt;

@@ -268,7 +268,7 @@ EnergyMemory unpack_books(std::string_view payload, Eigen::Index vertices) {
   books.work = reader.number();
   const bool has_energy = reader.rest().size() > 3 * static_cast<std::size_t>(vertices) * sizeof(double);
   if (has_energy) books.energy = reader.number();
-  books.looked_at = vertices_of(reader.rest(), vertices);
+  books.checked_at = vertices_of(reader.rest(), vertices);
   return books;
 }
 
@@ -292,7 +292,7 @@ bool is_finite(const ResumePoint& found) {
   const Restraint& restraint = found.checkpoint.state.restraint;
   const std::optional<EnergyMemory>& books = found.checkpoint.books;
   const bool known = !books || (std::isfinite(books->explained) && std::isfinite(books->work) &&
-                                std::isfinite(books->energy.value_or(0)) && books->looked_at.allFinite());
+                                std::isfinite(books->energy.value_or(0)) && books->checked_at.allFinite());
   const auto is_force = [](const ContactForce& contact) { return contact.force.allFinite(); };
   return known && std::ranges::all_of(found.checkpoint.state.contact_forces, is_force) &&
          restraint.acceleration.allFinite() && restraint.tensions.allFinite() &&
@@ -366,7 +366,7 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
     ByteWriter writer;
     writer.number(books->explained).number(books->work);
     if (books->energy) writer.number(*books->energy);
-    bytes += block(books_tag, pack(writer.bytes(bytes_of(books->looked_at)).text()));
+    bytes += block(books_tag, pack(writer.bytes(bytes_of(books->checked_at)).text()));
   }
   if (!rows.empty()) bytes += block(rows_tag, pack_rows(rows));
   return bytes + block(times_tag, pack(bytes_of(microseconds)));

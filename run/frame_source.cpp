@@ -103,11 +103,11 @@ void FrameSampler::after_step(const Simulation& simulation, const StepReport& re
 }
 
 void FrameSampler::add(const Simulation& simulation, int iterations) {
-  taker_.add({.state = simulation.state(),
-              .iterations = iterations,
-              .next = simulation.state().step + 1,
-              .energies = [&] { return simulation.energies(); },
-              .colliders = [&](double time) { return simulation.colliders(time); }});
+  interpolator_.add({.state = simulation.state(),
+                     .iterations = iterations,
+                     .next = simulation.state().step + 1,
+                     .energies = [&] { return simulation.energies(); },
+                     .colliders = [&](double time) { return simulation.colliders(time); }});
 }
 
 namespace {
@@ -243,16 +243,17 @@ std::size_t last_before(const MotionReader& motion, double time, double h) {
 void sample_motion(MotionReader& motion, const Scene& scene, const FilmExtent& extent, FrameContents contents,
                    const FrameInterpolator::Receiver& receiver, const std::stop_token& stop) {
   const System system = make_system(scene.simulation);
-  FrameInterpolator taker(extent, receiver, contents);
+  FrameInterpolator interpolator(extent, receiver, contents);
   const std::size_t first = last_before(motion, extent.time(extent.frames.first), extent.step);
   // Begin one state earlier, so that a frame which falls on a state by rounding has its predecessor.
-  for (std::size_t i = first > 0 ? first - 1 : 0; i < motion.states() && !taker.done() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = first > 0 ? first - 1 : 0; i < motion.states() && !interpolator.done() && !stop.stop_requested();
+       ++i) {
     const State& state = motion.state(i);
-    taker.add({.state = state,
-               .iterations = motion.row(state.step).iterations,
-               .next = i + 1 < motion.states() ? motion.step(i + 1) : state.step + 1,
-               .energies = [&] { return motion.row(state.step).energies; },
-               .colliders = [&](double time) { return system.colliders_at(time); }});
+    interpolator.add({.state = state,
+                      .iterations = motion.row(state.step).iterations,
+                      .next = i + 1 < motion.states() ? motion.step(i + 1) : state.step + 1,
+                      .energies = [&] { return motion.row(state.step).energies; },
+                      .colliders = [&](double time) { return system.colliders_at(time); }});
   }
 }
 

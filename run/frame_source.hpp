@@ -94,7 +94,7 @@ class FrameSampler final : public StepObserver {
   using Receiver = FrameInterpolator::Receiver;
 
   FrameSampler(const FilmExtent& extent, Receiver receiver, FrameContents contents = FrameContents::places)
-      : taker_(extent, std::move(receiver), contents) {}
+      : interpolator_(extent, std::move(receiver), contents) {}
 
   void begin(const Simulation& simulation) override;
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
@@ -102,7 +102,7 @@ class FrameSampler final : public StepObserver {
  private:
   void add(const Simulation& simulation, int iterations);
 
-  FrameInterpolator taker_;
+  FrameInterpolator interpolator_;
 };
 
 /// A store of a film's frames for repeated passes. Frames beyond the memory limit go to an unnamed temporary file.

@@ -62,7 +62,7 @@ std::string difference(const Mesh& rest, const Mesh& mesh) {
 /// Adds warnings about a complete cloth.
 void add_doubts(const ClothTable& table, ClothAndUvs& result) {
   std::vector<std::string>& warnings = result.warnings;
-  if (const auto doubt = shape_of(result.cloth).doubt()) warnings.push_back(*doubt);
+  if (const auto warning = shape_of(result.cloth).size_warning()) warnings.push_back(*warning);
   const std::string* file = table.mesh->as<std::string>();  // a table may give the up axis
   const bool turned = !table.rotate.isZero(0);
   if (file != nullptr && !turned && is_obj(*file) && seems_y_up(result.mesh.positions)) {
@@ -413,8 +413,8 @@ ClothList read_cloths(const TomlValue& document, TableReader& reader, const std:
     check_name(*item, table.name, list.tables, items.size() > 1, problems);
     if (item->as<TomlTable>() != nullptr) {
       if (auto cloth = read_cloth(table, *item, folder, problems)) {
-        for (const std::string& doubt : cloth->warnings) {
-          list.warnings.push_back(problems.text(place_of(*item, "mesh")) + ": mesh: " + doubt);
+        for (const std::string& warning : cloth->warnings) {
+          list.warnings.push_back(problems.text(place_of(*item, "mesh")) + ": mesh: " + warning);
         }
         join(table.name, items.size() > 1, std::move(*cloth), list);
       }

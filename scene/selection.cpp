@@ -295,7 +295,7 @@ std::string ClothShape::text() const {
                      shortest_edge, longest_edge);
 }
 
-std::optional<std::string> ClothShape::doubt() const {
+std::optional<std::string> ClothShape::size_warning() const {
   const double size = extent.maxCoeff();
   if (size <= large && size >= small) return std::nullopt;
   return fmt::format("the cloth is {:.3g} m {}: are its coordinates metres? [cloth.transform] scale changes them", size,

@@ -58,7 +58,7 @@ struct ClothShape {
   [[nodiscard]] std::string text() const;
 
   /// Returns a warning about an unusual size, if any.
-  [[nodiscard]] std::optional<std::string> doubt() const;
+  [[nodiscard]] std::optional<std::string> size_warning() const;
 };
 
 ClothShape shape_of(const Cloth& cloth);

@@ -139,9 +139,9 @@ class Simulation::Motion {
   /// Returns the scheme for the system and the settings.
   std::unique_ptr<Scheme> make_scheme();
   /// Returns a value from the scheme, or an empty one if its creation was interrupted.
-  template <class Said>
-  auto said(const Said& of) const -> decltype(of(*scheme)) {
-    return scheme ? of(*scheme) : decltype(of(*scheme)){};
+  template <class Query>
+  auto query_scheme(const Query& query) const -> decltype(query(*scheme)) {
+    return scheme ? query(*scheme) : decltype(query(*scheme)){};
   }
   /// Returns the sink for the effects' computing times, or null if they are not measured.
   std::vector<double>* measured() { return effect_seconds.empty() ? nullptr : &effect_seconds; }
@@ -185,14 +185,14 @@ std::optional<DivergedError> Simulation::Motion::find_fault() {
   // Any non-finite position makes this norm non-finite, and any such velocity its vertex's position.
   const std::optional<double> size = scheme->size();
   if (!std::isfinite(size ? *size : norm(threads, state.x))) return diverged_by(std::nullopt);
-  const std::optional<double> growth = guard->look(state, forces.push(), forces.constant(), energy);
+  const std::optional<double> growth = guard->check_step(state, forces.push(), forces.constant(), energy);
   // A step of backward Euler in place of another scheme's has its own books.
   if (growth && !scheme->first_order()) return diverged_by(growth);
   return std::nullopt;
 }
 
 StepReport Simulation::Motion::step() {
-  stop.look();
+  stop.check();
   if (phases.size() > 1) enter_phase();
   if (may_be_interrupted() || scheme->can_redo()) {
     before.state = state;
@@ -214,7 +214,7 @@ StepReport Simulation::Motion::step() {
 
 void Simulation::Motion::restore(const Simulation::Checkpoint& checkpoint) {
   state = checkpoint.state;
-  if (checkpoint.books) guard->go_on(*checkpoint.books);
+  if (checkpoint.books) guard->restore(*checkpoint.books);
 }
 
 Energies Simulation::Motion::energies() {
@@ -296,17 +296,17 @@ bool Simulation::has_push() const {
   return std::ranges::any_of(motion_->system->forces, [](const auto& force) { return force->of_contact(); });
 }
 double Simulation::residual() const {
-  return motion_->said([](Scheme& scheme) { return scheme.residual(); });
+  return motion_->query_scheme([](Scheme& scheme) { return scheme.residual(); });
 }
 double Simulation::error() const {
-  return motion_->said([](Scheme& scheme) { return scheme.error(); });
+  return motion_->query_scheme([](Scheme& scheme) { return scheme.error(); });
 }
 double Simulation::residual_force() const {
-  return motion_->said([](Scheme& scheme) { return scheme.residual_force(); });
+  return motion_->query_scheme([](Scheme& scheme) { return scheme.residual_force(); });
 }
 double Simulation::weight() const { return motion_->settings.cloth.masses.sum() * motion_->system->gravity.norm(); }
 std::optional<Accuracy> Simulation::accuracy() const {
-  return motion_->said([](const Scheme& scheme) { return scheme.accuracy(); });
+  return motion_->query_scheme([](const Scheme& scheme) { return scheme.accuracy(); });
 }
 std::vector<Collider> Simulation::colliders(double time) const { return motion_->system->colliders_at(time); }
 

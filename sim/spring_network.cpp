@@ -39,7 +39,7 @@ void wait_until(const Threads& threads, const std::atomic<int>& number, int leas
   if (now >= least) return;
   Wait wait(threads);
   for (; now < least; now = number.load(std::memory_order_acquire)) {
-    if (wait.go_on()) number.wait(now, std::memory_order_acquire);
+    if (wait.keep_waiting()) number.wait(now, std::memory_order_acquire);
   }
 }
 

@@ -89,7 +89,7 @@ double largest_eigenvalue(const std::vector<Spring>& bound_of_stiffness, const E
   std::vector<double> alpha, beta;
   double bound = 0, value = 0;
   for (int k = 1; k <= max_iterations; ++k) {
-    stop.look();
+    stop.check();
     apply(bound_of_stiffness, scale, v, w);
     alpha.push_back(v.dot(w));
     w -= alpha.back() * v;
@@ -236,16 +236,16 @@ BlowUpWatch::BlowUpWatch(const System& system, double limit, int interval)
     : step_(system.whole_step), limit_(limit), interval_(interval), rounding_(energy_rounding(system)) {}
 
 void BlowUpWatch::begin(const State& state, double energy) {
-  books_ = {.explained = std::max(energy, rounding_), .looked_at = state.x, .work = 0, .energy = {}};
+  books_ = {.explained = std::max(energy, rounding_), .checked_at = state.x, .work = 0, .energy = {}};
 }
 
-std::optional<double> BlowUpWatch::look(const State& state, const Vertices& push, bool constant,
-                                        const std::function<double(double enough)>& energy) {
+std::optional<double> BlowUpWatch::check_step(const State& state, const Vertices& push, bool constant,
+                                              const std::function<double(double enough)>& energy) {
   if (!constant) books_.work += step_ * std::abs(push.cwiseProduct(state.v).sum());
   if (state.step % interval_ != 0) return std::nullopt;
-  if (constant) books_.work = std::abs(push.cwiseProduct(state.x - books_.looked_at).sum());
+  if (constant) books_.work = std::abs(push.cwiseProduct(state.x - books_.checked_at).sum());
   books_.explained += books_.work;
-  books_.looked_at = state.x;
+  books_.checked_at = state.x;
   books_.work = 0;
   const double now = energy(limit_ * books_.explained);
   if (!(now > limit_ * books_.explained)) return std::nullopt;

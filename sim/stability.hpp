@@ -68,11 +68,12 @@ class BlowUpWatch {
   /// Returns the checkpoint state.
   [[nodiscard]] const EnergyMemory& books() const { return books_; }
   /// Restores a checkpoint state.
-  void go_on(const EnergyMemory& books) { books_ = books; }
+  void restore(const EnergyMemory& books) { books_ = books; }
 
-  /// Adds the work of a step that has ended, and checks the energy after every interval, see StabilityGuard::look.
-  std::optional<double> look(const State& state, const Vertices& push, bool constant,
-                             const std::function<double(double enough)>& energy);
+  /// Adds the work of a step that has ended, and checks the energy after every interval, see
+  /// StabilityGuard::check_step.
+  std::optional<double> check_step(const State& state, const Vertices& push, bool constant,
+                                   const std::function<double(double enough)>& energy);
 
  private:
   double step_;  // [s]

@@ -37,8 +37,8 @@ class OverlapFinder {
     const PlacedMesh mesh(std::make_shared<MeshTopology>(*shape.triangles, count), shape.positions);
     if (mesh.solid()) {
       note([&](const Point& p) {
-        const auto foot = mesh.find(p, 0);
-        return foot ? -foot->distance : 0;
+        const auto closest = mesh.find(p, 0);
+        return closest ? -closest->distance : 0;
       });
     }
     find_across(mesh);
@@ -92,8 +92,8 @@ class OverlapFinder {
       for (; k < all.size() && all[k].edge == edge; ++k, ++found) middle += crossing_point(edge, body[all[k].triangle]);
       if (has_any(cloth_.pins, edge)) continue;
       // Cloth on the surface of a solid meets the border of its sides.
-      const auto foot = mesh.find(middle / found, 0);
-      if (!mesh.solid() || (foot && -foot->distance > rounding_)) edges_.push_back(edge);
+      const auto closest = mesh.find(middle / found, 0);
+      if (!mesh.solid() || (closest && -closest->distance > rounding_)) edges_.push_back(edge);
     }
     for (const Intersection& found : find_intersections(unique_edges(body), cloth_.triangles, points_)) {
       if (!has_any(cloth_.pins, cloth_.triangles[found.triangle])) {

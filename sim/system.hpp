@@ -149,7 +149,7 @@ struct MotionFilter {
 
  protected:
   /// @throws Interrupted if a stop is requested
-  void check_stop() const { stop_.look(); }
+  void check_stop() const { stop_.check(); }
 
  private:
   Stop stop_;

@@ -42,9 +42,9 @@ class SceneStudy {
   /// @throws UsageError if a case or a reference cannot be run
   void check() const {
     for (const StudyCase& one : cases_.easiest) static_cast<void>(one.load());
-    for (const ToleranceCase& one : cases_.tolerances) static_cast<void>(one.what.load());
+    for (const ToleranceCase& one : cases_.tolerances) static_cast<void>(one.study_case.load());
     for (const auto* list : {&cases_.steps, &cases_.asked, &cases_.fixed}) {
-      for (const StepCase& one : *list) static_cast<void>(one.what.load());
+      for (const StepCase& one : *list) static_cast<void>(one.study_case.load());
     }
     for (const Method method : {Method::implicit, Method::quasi_newton}) {
       const Simulation reference(to_rounding(scene_.simulation, method));
@@ -143,7 +143,7 @@ class SceneStudy {
     std::vector<StudyCase> all;
     std::vector<std::function<void(const Simulation&, const StepReport&)>> watches;
     std::vector<CaseRuns*> kept;
-    const auto add = [&](const StudyCase& what, CaseRuns& runs, auto watch) {
+    const auto add = [&](const StudyCase& study_case, CaseRuns& runs, auto watch) {
       all.push_back(what);
       kept.push_back(&runs);
       watches.emplace_back(std::move(watch));
@@ -153,7 +153,7 @@ class SceneStudy {
       TolerancePoint& point = result_.points[i];
       point.method = cases_.tolerances[i].method;
       point.tolerance = cases_.tolerances[i].tolerance;
-      add(cases_.tolerances[i].what, point.measured,
+      add(cases_.tolerances[i].study_case, point.measured,
           [this, &point](const Simulation& now, const StepReport&) { look_at(point, now.state()); });
     }
     result_.steps.resize(cases_.steps.size());
@@ -162,8 +162,8 @@ class SceneStudy {
       point.method = cases_.steps[i].method;
       point.step = cases_.steps[i].setting;
       point.error = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
-      add(cases_.steps[i].what, point.measured,
-          [this, &point, last = cases_.steps[i].what.steps](const Simulation& now, const StepReport&) {
+      add(cases_.steps[i].study_case, point.measured,
+          [this, &point, last = cases_.steps[i].study_case.steps](const Simulation& now, const StepReport&) {
             look_at(point, now.state(), last);
           });
     }
@@ -174,7 +174,7 @@ class SceneStudy {
         MotionPoint& point = (*points)[i];
         point.method = (*from)[i].method;
         point.setting = (*from)[i].setting;
-        add((*from)[i].what, point.measured, motions_->watch(point, (*from)[i].what));
+        add((*from)[i].study_case, point.measured, motions_->watch(point, (*from)[i].study_case));
       }
     }
     const CaseWatch watch = [&](std::size_t number, const Simulation& simulation, const StepReport& report) {
@@ -195,7 +195,7 @@ class SceneStudy {
     result_.solve_apart = exact.apart();
     for (TolerancePoint& point : result_.points) {
       if (stop.stop_requested()) return false;
-      point.solve = exact.error(point.measured.what.load().simulation.integrator);
+      point.solve = exact.error(point.measured.study_case.load().simulation.integrator);
       ++progress.done;
     }
     return true;
@@ -213,7 +213,7 @@ class SceneStudy {
 }  // namespace
 
 CaseRuns::CaseRuns(const Measured& measured)
-    : what(measured.what),
+    : what(measured.study_case),
       step(measured.step),
       iterations(measured.mean_iterations()),
       capped(measured.capped),
@@ -225,7 +225,7 @@ CaseRuns::CaseRuns(const Measured& measured)
 MedianInterval CaseRuns::cost() const {
   std::vector<double> whole = microseconds;
   for (std::size_t i = 0; i < std::min(whole.size(), setup.size()); ++i) {
-    whole[i] += setup[i] / static_cast<double>(what.steps);
+    whole[i] += setup[i] / static_cast<double>(study_case.steps);
   }
   return median_interval(std::move(whole)).times(1e-3 / step);
 }
@@ -320,24 +320,24 @@ constexpr double small_tolerance = 1e-9;
 
 /// Returns the case of a scene with its own method and the study's overrides.
 StudyCase base_case(const std::string& file, const AccuracyOptions& options, std::string label) {
-  StudyCase what;
-  what.label = std::move(label);
-  what.scene = file;
-  what.folder = std::filesystem::current_path();
-  what.overrides = options.overrides;
-  return what;
+  StudyCase study_case;
+  study_case.label = std::move(label);
+  study_case.scene = file;
+  study_case.folder = std::filesystem::current_path();
+  study_case.overrides = options.overrides;
+  return study_case;
 }
 
 StudyCase make_case(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
-  StudyCase what = base_case(file, options, std::move(label));
-  what.overrides.push_back("integrator.method=" + method_name(method.method));
+  StudyCase study_case = base_case(file, options, std::move(label));
+  study_case.overrides.push_back("integrator.method=" + method_name(method.method));
   if (!is_explicit(method.method)) what.overrides.push_back("integrator.scheme=" + scheme_name(method.scheme));
-  return what;
+  return study_case;
 }
 
-void add_tolerance(StudyCase& what, double tolerance) {
-  what.overrides.push_back("integrator.tolerance=" + plain_number(tolerance));
-  what.overrides.push_back(fmt::format("integrator.max_iterations={}", most_study_iterations));
+void add_tolerance(StudyCase& study_case, double tolerance) {
+  study_case.overrides.push_back("integrator.tolerance=" + plain_number(tolerance));
+  study_case.overrides.push_back(fmt::format("integrator.max_iterations={}", most_study_iterations));
 }
 
 /// Returns true if a method is stable with this step length.
@@ -351,66 +351,69 @@ bool is_stable(SimulationSettings settings, StepMethod method, double step) {
 
 /// Returns a case with the default tolerance: replaces the scene's [integrator] table.
 StudyCase by_default(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
-  StudyCase what = base_case(file, options, std::move(label));
+  StudyCase study_case = base_case(file, options, std::move(label));
   const std::string scheme =
       is_explicit(method.method) ? "" : fmt::format(",scheme=\"{}\"", scheme_name(method.scheme));
-  what.overrides.push_back(fmt::format("integrator={{method=\"{}\"{}}}", method_name(method.method), scheme));
-  what.patience = options.patience;
-  return what;
+  study_case.overrides.push_back(fmt::format("integrator={{method=\"{}\"{}}}", method_name(method.method), scheme));
+  study_case.patience = options.patience;
+  return study_case;
 }
 
 /// Adds an accuracy to a case. Accuracy needs a second-order scheme, also beside fixed steps of another scheme.
-void ask(StudyCase& what, StepMethod method, double accuracy) {
+void ask(StudyCase& study_case, StepMethod method, double accuracy) {
   if (!is_explicit(method.method)) what.overrides.push_back("integrator.scheme=" + scheme_name(TimeScheme::sdirk2));
-  what.overrides.push_back("time.accuracy=" + plain_number(accuracy));
+  study_case.overrides.push_back("time.accuracy=" + plain_number(accuracy));
 }
 
 /// Returns a case that fails only if the method cannot compute the scene with any step.
 StudyCase easiest_case(const std::string& file, const AccuracyOptions& options, StepMethod method) {
-  StudyCase what = by_default(file, options, method, "");
+  StudyCase study_case = by_default(file, options, method, "");
   ask(what, method, 1);  // so that no step is rejected for its length
-  return what;
+  return study_case;
 }
 
 void add_tolerance_cases(AccuracyCases& cases, const Scene& scene, const std::string& file,
                          const AccuracyOptions& options, StepMethod method) {
   for (const double tolerance : options.tolerances) {
-    StudyCase what = make_case(file, options, method, fmt::format("{}, ε = {:g}", step_method_name(method), tolerance));
+    StudyCase study_case =
+        make_case(file, options, method, fmt::format("{}, ε = {:g}", step_method_name(method), tolerance));
     add_tolerance(what, tolerance);
-    what.steps = steps_until(options.times.back(), scene.simulation.step);
-    what.watched_steps = scene.step_count();
+    study_case.steps = steps_until(options.times.back(), scene.simulation.step);
+    study_case.watched_steps = scene.step_count();
     cases.tolerances.push_back({method, tolerance, std::move(what)});
   }
 }
 
 void add_step_case(AccuracyCases& cases, const std::string& file, const AccuracyOptions& options, StepMethod method,
                    double step) {
-  StudyCase what = make_case(file, options, method, fmt::format("{}, h = {:g} s", step_method_name(method), step));
-  what.overrides.push_back("time.step=" + plain_number(step));
+  StudyCase study_case =
+      make_case(file, options, method, fmt::format("{}, h = {:g} s", step_method_name(method), step));
+  study_case.overrides.push_back("time.step=" + plain_number(step));
   if (!is_explicit(method.method)) {
-    what.overrides.emplace_back("integrator.stop=change");
+    study_case.overrides.emplace_back("integrator.stop=change");
     add_tolerance(what, small_tolerance);
   }
-  what.steps = steps_until(options.times.front(), step);
+  study_case.steps = steps_until(options.times.front(), step);
   cases.steps.push_back({method, step, std::move(what)});
 }
 
 void add_fixed_case(AccuracyCases& cases, const std::string& file, const AccuracyOptions& options, StepMethod method,
                     double step) {
-  StudyCase what = by_default(file, options, method, fmt::format("{}, h = {:g} s", step_method_name(method), step));
-  what.overrides.push_back("time.step=" + plain_number(step));
-  what.steps = steps_until(options.times.front(), step);
-  what.watched_steps = steps_until(options.times.back(), step);
+  StudyCase study_case =
+      by_default(file, options, method, fmt::format("{}, h = {:g} s", step_method_name(method), step));
+  study_case.overrides.push_back("time.step=" + plain_number(step));
+  study_case.steps = steps_until(options.times.front(), step);
+  study_case.watched_steps = steps_until(options.times.back(), step);
   cases.fixed.push_back({method, step, std::move(what)});
 }
 
 void add_asked_case(AccuracyCases& cases, const Scene& scene, const std::string& file, const AccuracyOptions& options,
                     StepMethod method, double accuracy) {
-  StudyCase what =
+  StudyCase study_case =
       by_default(file, options, method, fmt::format("{}, accuracy = {:g} m", step_method_name(method), accuracy));
   ask(what, method, accuracy);
-  what.steps = steps_until(options.times.front(), scene.simulation.step);
-  what.watched_steps = steps_until(options.times.back(), scene.simulation.step);
+  study_case.steps = steps_until(options.times.front(), scene.simulation.step);
+  study_case.watched_steps = steps_until(options.times.back(), scene.simulation.step);
   cases.asked.push_back({method, accuracy, std::move(what)});
 }
 

@@ -57,7 +57,7 @@ struct AccuracyOptions {
 
 /// The measurements of one case.
 struct CaseRuns {
-  StudyCase what;
+  StudyCase study_case;
   double step = 0;                   ///< step length h [s]
   double iterations = 0;             ///< mean per step
   std::int64_t capped = 0;           ///< number of steps that reached the iteration limit
@@ -169,13 +169,13 @@ std::optional<SceneAccuracy> study_accuracy(const std::string& name, const std::
 struct ToleranceCase {
   StepMethod method;
   double tolerance;
-  StudyCase what;
+  StudyCase study_case;
 };
 /// A case with a time step [s] or an accuracy [m].
 struct StepCase {
   StepMethod method;
   double setting;
-  StudyCase what;
+  StudyCase study_case;
 };
 struct AccuracyCases {
   std::vector<ToleranceCase> tolerances;

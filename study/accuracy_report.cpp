@@ -50,13 +50,13 @@ std::string film(const SceneAccuracy& scene, StepMethod method, const char* key,
 
 std::string commands(const SceneAccuracy& scene, const TolerancePoint& point) {
   return fmt::format("{}\n{}", command_of(scene, {step_method_name(point.method), "solve", {point.tolerance}, {}, {}}),
-                     point.measured.what.film_command(film(scene, point.method, "tolerance", point.tolerance)));
+                     point.measured.study_case.film_command(film(scene, point.method, "tolerance", point.tolerance)));
 }
 
 std::string commands(const SceneAccuracy& scene, const StepPoint& point) {
   return fmt::format("{}\n{}",
                      command_of(scene, {step_method_name(point.method), "order", {}, scene.options.steps, {}}),
-                     point.measured.what.film_command(film(scene, point.method, "step", point.step)));
+                     point.measured.study_case.film_command(film(scene, point.method, "step", point.step)));
 }
 
 /// Plots error(point) against time per step, one series per method.
@@ -160,7 +160,7 @@ std::string motion_commands(const SceneAccuracy& scene, const MotionPoint& point
       names_of({.solve = false, .order = false, .asked = true, .estimates = all.estimates, .films = all.films});
   return fmt::format(
       "{}\n{}", command_of(scene, {step_method_name(point.method), parts, {}, steps, accuracies}),
-      point.measured.what.film_command(film(scene, point.method, asked ? "accuracy" : "h", point.setting)));
+      point.measured.study_case.film_command(film(scene, point.method, asked ? "accuracy" : "h", point.setting)));
 }
 
 std::optional<std::array<double, 2>> spread_of(const MedianInterval& time) {

@@ -32,13 +32,13 @@ std::optional<std::int64_t> moment_at(double time, double h) {
 }  // namespace
 
 std::function<void(const Simulation&, const StepReport&)> MotionWatch::watch(MotionPoint& point,
-                                                                             const StudyCase& what) {
+                                                                             const StudyCase& study_case) {
   point.errors.assign(times_.size(), {unknown, unknown});
   Watched& watched = watched_.emplace_back();
   watched.point = &point;
   const Cloth& cloth = scene_.simulation.cloth;
   watched.before = {.x = cloth.positions, .v = cloth.velocities, .step = 0};
-  return [this, &point, &watched, judged = what.steps](const Simulation& simulation, const StepReport& report) {
+  return [this, &point, &watched, judged = study_case.steps](const Simulation& simulation, const StepReport& report) {
     const State& state = simulation.state();
     if (report.estimate && state.step <= judged) {
       point.substeps.push_back(static_cast<double>(report.substeps));
@@ -145,12 +145,12 @@ std::string cost_label(double microseconds) {
 }
 
 AnimationPanel panel(const TolerancePoint& p) {
-  return {p.measured.what, fmt::format("{}, tolerance {:g}: {}", step_method_name(p.method), p.tolerance,
-                                       cost_label(p.measured.time().median))};
+  return {p.measured.study_case, fmt::format("{}, tolerance {:g}: {}", step_method_name(p.method), p.tolerance,
+                                             cost_label(p.measured.time().median))};
 }
 
 AnimationPanel panel(const StepPoint& p) {
-  return {p.measured.what,
+  return {p.measured.study_case,
           fmt::format("{}, h = {:g} s: {}", step_method_name(p.method), p.step, cost_label(p.measured.time().median))};
 }
 
@@ -216,8 +216,8 @@ std::optional<StudyPicture> animate_accuracy(const SceneAccuracy& accuracy, Anim
   picture.stills = std::move(animation->film.stills);
   const AnimationPanel& worst = panels[animation->worst_panel];
   picture.motions = {{"the reference", {}, std::move(animation->reference)},
-                     {worst.label + ", which ends furthest from the reference", worst.what.film_command("motion.html"),
-                      std::move(animation->worst)}};
+                     {worst.label + ", which ends furthest from the reference",
+                      worst.study_case.film_command("motion.html"), std::move(animation->worst)}};
   return picture;
 }
 
@@ -230,11 +230,11 @@ constexpr std::size_t most_bytes = std::size_t{1} << 31, most_picture_bytes = st
 
 template <class Fields, class Case>
 void describe_case(Fields& f, Case& c) {
-  f("label", c.what.label);
-  f("scene", c.what.scene);
-  f("overrides", c.what.overrides);
-  f("steps", c.what.steps);
-  f("watched_steps", c.what.watched_steps);
+  f("label", c.study_case.label);
+  f("scene", c.study_case.scene);
+  f("overrides", c.study_case.overrides);
+  f("steps", c.study_case.steps);
+  f("watched_steps", c.study_case.watched_steps);
   f("step", c.step);
   f("iterations", c.iterations);
   f("capped_steps", c.capped);

@@ -24,7 +24,7 @@ class MotionWatch {
       : scene_(scene), times_(times), reference_(reference), films_(films) {}
 
   /// Returns an observer of a point's motion, which writes to the point.
-  std::function<void(const Simulation&, const StepReport&)> watch(MotionPoint& point, const StudyCase& what);
+  std::function<void(const Simulation&, const StepReport&)> watch(MotionPoint& point, const StudyCase& study_case);
 
   /// Computes the true local errors of the observed steps, by very small steps from the same states.
   /// @param points to which the local errors are written

@@ -206,7 +206,7 @@ std::optional<Animation> animate_errors(const Scene& scene, const SimulationSett
   ++progress.done;
   std::vector<std::vector<Frame>> motions;
   for (const AnimationPanel& panel : panels) {
-    motions.push_back(frames_of(panel.what.load().simulation, video, scene.duration, stop));
+    motions.push_back(frames_of(panel.study_case.load().simulation, video, scene.duration, stop));
     ++progress.done;
   }
   if (stop.stop_requested()) return std::nullopt;

@@ -53,7 +53,7 @@ class FilmJudge {
 
 /// A motion in an animation, with its heading.
 struct AnimationPanel {
-  StudyCase what;
+  StudyCase study_case;
   std::string label;  ///< "liu13, tolerance 0.001: 190 µs per step"
 };
 

@@ -129,8 +129,8 @@ constexpr std::array<EnergyRow, 6> reported_energies{{{1, -4.7802e-05, 4.78023e-
                                                       {20, -0.000956025, 0.0191208, -0.0200769, 9.40691e-08}}};
 
 void add_energies(HomeworkStudy& study) {
-  const StudyCase what = homework_energy_case();
-  Simulation simulation(what.load().simulation);
+  const StudyCase study_case = homework_energy_case();
+  Simulation simulation(study_case.load().simulation);
   study.energies = {
       "energies", "Energies of the first steps [J]", {"step", "total", "kinetic", "gravity", "elastic"}, {}, {}};
   ResultTable beside{
@@ -141,8 +141,8 @@ void add_energies(HomeworkStudy& study) {
       {},
       {"The report's positions are in single precision, which leaves noise of about 2e-10 J in its elastic energy. The "
        "steady loss is that of the scheme, ½ M g² h² = 4.78e-5 J per step in free fall, not damping.",
-       what.command() + " --energies energies.csv"}};
-  run_steps(simulation, what.steps, {}, [&](const StepReport&) {
+       study_case.command() + " --energies energies.csv"}};
+  run_steps(simulation, study_case.steps, {}, [&](const StepReport&) {
     const std::int64_t step = simulation.state().step;
     const Energies e = simulation.energies();
     const auto text = [](double value) { return fmt::format("{:.6g}", value); };
@@ -161,7 +161,7 @@ void add_energies(HomeworkStudy& study) {
 html::ChartSeries iterations_of(const Measured& measured, const std::string& name) {
   html::ChartSeries series = method_series(name);
   series.markers = false;
-  series.command = measured.what.command();
+  series.command = measured.study_case.command();
   for (std::size_t i = 0; i < measured.iterations.size(); ++i) {
     const double time = static_cast<double>(i + 1) * measured.step;
     series.points.push_back({time,
@@ -176,7 +176,7 @@ html::ChartSeries iterations_of(const Measured& measured, const std::string& nam
 html::ChartSeries height_of(const Measured& measured, const std::string& name, std::size_t every) {
   html::ChartSeries series = method_series(name);
   series.markers = false;
-  series.command = measured.what.command();
+  series.command = measured.study_case.command();
   for (std::size_t i = every - 1; i < measured.height.size(); i += every) {
     const double time = static_cast<double>(i + 1) * measured.step;
     series.points.push_back(
@@ -203,7 +203,7 @@ NamedChart by_tolerance(const char* name, const char* title, const char* y_title
       if (rows[i].table != 3 || rows[i].method != method) continue;
       const double y = value(i);
       series.points.push_back({std::stod(rows[i].tolerance), y, fmt::format("ε = {}: {:.5g}", rows[i].tolerance, y),
-                               measured[i].what.command()});
+                               measured[i].study_case.command()});
     }
     chart.chart.series.push_back(std::move(series));
   };
@@ -246,7 +246,8 @@ bool add_motions(HomeworkStudy& study, const std::vector<HomeworkRow>& rows, con
   for (const HomeworkRow& row : rows) {
     if (row.table == 3) continue;
     auto motion = record_study_motion(
-        row.what, row.method + (row.table == 1 ? ", no sphere, k = 18 N/m" : ", with the sphere, k = 180 N/m"), stop);
+        row.study_case, row.method + (row.table == 1 ? ", no sphere, k = 18 N/m" : ", with the sphere, k = 180 N/m"),
+        stop);
     if (!motion) return false;
     study.motions.push_back(std::move(*motion));
     ++progress.done;
@@ -277,7 +278,7 @@ std::optional<HomeworkStudy> study_homework(RunCount runs, const std::stop_token
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<HomeworkRow> rows = homework_rows();
   std::vector<StudyCase> cases;
-  for (const HomeworkRow& row : rows) cases.push_back(row.what);
+  for (const HomeworkRow& row : rows) cases.push_back(row.study_case);
   for (StudyCase& extra : homework_extras()) cases.push_back(std::move(extra));
   std::vector<Measured> measured = measure(cases, runs, stop, progress);
   if (measured.empty()) return std::nullopt;
@@ -374,7 +375,7 @@ Conclusion liu13_slows_down(const Results& of) {
 
 Conclusion sphere_slows_down(const Results& of, const Measured& semi_without) {
   const Measured &newton = of(2, "implicit"), &liu13 = of(2, "liu13"), &semi = of(2, "semi-implicit");
-  const auto steps = static_cast<std::size_t>(newton.what.steps);
+  const auto steps = static_cast<std::size_t>(newton.study_case.steps);
   const double newton_before = of(3, "implicit", "1e-3").mean_iterations(0, steps);
   const double liu13_before = of(3, "liu13", "1e-3").mean_iterations();
   const double before = semi_without.time().median, with = semi.time().median;

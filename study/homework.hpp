@@ -26,7 +26,7 @@ struct HomeworkRow {
   double step = 0;        ///< [s]
   std::string tolerance;  ///< as written: "1e-3"; empty if there is none
   Reported reported;
-  StudyCase what;
+  StudyCase study_case;
 };
 
 /// Returns the rows of tables 1, 2 and 3, in order.

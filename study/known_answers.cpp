@@ -290,11 +290,11 @@ std::vector<GivenAnswer> answers_of_npz(const ValidationCase& of, const fs::path
   const auto positions = array_named(zip, {"positions"}), velocities = array_named(zip, {"velocities"}),
              times = array_named(zip, {"times"});
   if (!positions) throw UsageError(fmt::format("{}: expected an array 'positions'", shown(file)));
-  StudyCase what;
-  what.scene = of.scene;
-  what.overrides = problem.overrides;
+  StudyCase study_case;
+  study_case.scene = of.scene;
+  study_case.overrides = problem.overrides;
   ObservedMotion motion;
-  motion.cloth = what.load().simulation.cloth;
+  motion.cloth = study_case.load().simulation.cloth;
   const Eigen::Index vertices = motion.cloth.positions.rows();
   motion.positions = states_in(*positions, vertices);
   if (velocities) motion.velocities = states_in(*velocities, vertices);

@@ -178,11 +178,12 @@ class CaseRun {
 
  private:
   [[nodiscard]] std::int64_t step_count() const {
-    return watch_ ? std::max(measured_.what.steps, measured_.what.watched_steps) : measured_.what.steps;
+    return watch_ ? std::max(measured_.study_case.steps, measured_.study_case.watched_steps)
+                  : measured_.study_case.steps;
   }
 
   void watched_turn(std::int64_t end) {
-    const std::optional<double>& patience = measured_.what.patience;
+    const std::optional<double>& patience = measured_.study_case.patience;
     try {
       while (simulation_->state().step < end) {
         const double begin = thread_seconds();
@@ -200,14 +201,14 @@ class CaseRun {
   /// Ends the run. It is a failure only before what.steps; later steps are just watched.
   void give_up(const std::string& why) {
     given_up_ = true;
-    if (simulation_->state().step < measured_.what.steps) measured_.failure = why;
+    if (simulation_->state().step < measured_.study_case.steps) measured_.failure = why;
   }
 
   void observe(const StepReport& report) {
     const State& state = simulation_->state();
     const Eigen::VectorXd& m = simulation_->cloth().masses;
     measured_.iterations.push_back(report.iterations);
-    if (state.step <= measured_.what.steps) measured_.capped += report.converged ? 0 : 1;
+    if (state.step <= measured_.study_case.steps) measured_.capped += report.converged ? 0 : 1;
     measured_.height.push_back(m.dot(state.x.col(2)) / m.sum());
     measured_.flipped_pairs += pairs_.count(state.x);
     watch_(*simulation_, report);
@@ -243,7 +244,7 @@ double thread_seconds() {
 }
 
 double Measured::mean_iterations() const {
-  return mean_iterations(0, std::min(iterations.size(), static_cast<std::size_t>(what.steps)));
+  return mean_iterations(0, std::min(iterations.size(), static_cast<std::size_t>(study_case.steps)));
 }
 
 double Measured::mean_iterations(std::size_t first, std::size_t last) const {
@@ -259,7 +260,7 @@ std::vector<Measured> measure(const std::vector<StudyCase>& cases, RunCount runs
   std::vector<Measured> results;
   for (const StudyCase& one : cases) {
     scenes.push_back(one.load());
-    results.emplace_back().what = one;
+    results.emplace_back().study_case = one;
     results.back().step = scenes.back().simulation.step;
   }
   progress.begin("measuring", "turns", (runs_at_most(runs) + 1) * turns);

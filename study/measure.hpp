@@ -85,7 +85,7 @@ std::string describe_runs(RunCount runs);
 
 /// The measurements of a case. The motion is the same in every run; the times differ.
 struct Measured {
-  StudyCase what;
+  StudyCase study_case;
   double step = 0;                   ///< step length h [s]
   std::vector<int> iterations;       ///< iterations of every watched step
   std::int64_t capped = 0;           ///< number of steps within what.steps that reached the iteration limit

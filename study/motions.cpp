@@ -71,18 +71,18 @@ html::PlayedMotion StudyMotionRecorder::finish() const {
   return frames_.empty() ? html::PlayedMotion{} : pack_for_page(scene_, frames_);
 }
 
-std::optional<StudyMotion> record_study_motion(const StudyCase& what, const std::string& label,
+std::optional<StudyMotion> record_study_motion(const StudyCase& study_case, const std::string& label,
                                                const std::stop_token& stop) {
-  const Scene scene = what.load();
+  const Scene scene = study_case.load();
   StudyMotionRecorder recorder(scene);
   Simulation simulation(scene.simulation);
   recorder.add(simulation);
   try {
-    run_steps(simulation, what.steps, stop, [&](const StepReport&) { recorder.add(simulation); });
+    run_steps(simulation, study_case.steps, stop, [&](const StepReport&) { recorder.add(simulation); });
   } catch (const DivergedError&) {
   }
   if (stop.stop_requested()) return std::nullopt;
-  return StudyMotion{label, what.film_command("motion.html"), recorder.finish()};
+  return StudyMotion{label, study_case.film_command("motion.html"), recorder.finish()};
 }
 
 namespace {

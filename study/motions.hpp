@@ -47,7 +47,7 @@ class StudyMotionRecorder {
 
 /// Runs a case once more and records its motion, up to a divergence.
 /// @returns nothing if stopped
-std::optional<StudyMotion> record_study_motion(const StudyCase& what, const std::string& label,
+std::optional<StudyMotion> record_study_motion(const StudyCase& study_case, const std::string& label,
                                                const std::stop_token& stop);
 
 /// A motion on a study's page, with the part of the page that shows it: a picture's file, or a case.

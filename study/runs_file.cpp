@@ -10,10 +10,10 @@
 namespace drape {
 namespace {
 
-std::string arguments(const StudyCase& what) {
-  std::string text = shell_file(what.scene);
-  for (const std::string& value : what.overrides) text += " --set " + shell_word(value);
-  return text + fmt::format(" --steps {}", what.steps);
+std::string arguments(const StudyCase& study_case) {
+  std::string text = shell_file(study_case.scene);
+  for (const std::string& value : study_case.overrides) text += " --set " + shell_word(value);
+  return text + fmt::format(" --steps {}", study_case.steps);
 }
 
 }  // namespace

@@ -56,10 +56,11 @@ class MethodOnGrid {
   MethodOnGrid(const Variant& variant, int cells, const State& start, double start_time) {
     point_.method = variant.name;
     point_.cells = cells;
-    point_.what = {variant.name, scene_file, {grid_override(cells)}, warm_up + timed_steps};
-    point_.what.overrides.insert(point_.what.overrides.end(), variant.overrides.begin(), variant.overrides.end());
+    point_.study_case = {variant.name, scene_file, {grid_override(cells)}, warm_up + timed_steps};
+    point_.study_case.overrides.insert(point_.study_case.overrides.end(), variant.overrides.begin(),
+                                       variant.overrides.end());
     if (point_.method == "semi-implicit") choose_safe_step();
-    settings_ = point_.what.load().simulation;
+    settings_ = point_.study_case.load().simulation;
     point_.vertices = settings_.cloth.vertex_count();
     point_.step = settings_.step;
     start_ = start;
@@ -105,11 +106,11 @@ class MethodOnGrid {
  private:
   /// Sets the largest stable step, with some margin; semi-implicit Euler is unstable with the scene's own step.
   void choose_safe_step() {
-    StudyCase bold = point_.what;
+    StudyCase bold = point_.study_case;
     bold.overrides.emplace_back("integrator.allow_unstable=true");
     const SimulationSettings settings = bold.load().simulation;
     const double step = of_safe_step * safe_step(make_system(settings));
-    point_.what.overrides.push_back("time.step=" + fmt::format("{:.3g}", step));
+    point_.study_case.overrides.push_back("time.step=" + fmt::format("{:.3g}", step));
   }
 
   /// Takes the timed steps; returns the sum of their iterations.
@@ -153,8 +154,8 @@ class MethodOnGrid {
 
 /// Returns a state in contact with the sphere, by quasi-Newton.
 State start_on(int cells, double& time) {
-  const StudyCase what{"", scene_file, {grid_override(cells), "integrator.method=quasi-newton"}, warm_up};
-  Simulation simulation(what.load().simulation);
+  const StudyCase study_case{"", scene_file, {grid_override(cells), "integrator.method=quasi-newton"}, warm_up};
+  Simulation simulation(study_case.load().simulation);
   run_steps(simulation, warm_up, {});
   time = simulation.time();
   return simulation.state();
@@ -168,7 +169,7 @@ bool measure_grid(int cells, const std::stop_token& stop, Progress& progress, Sc
     for (const Variant& variant : variants()) {
       try {
         auto one = std::make_unique<MethodOnGrid>(variant, cells, start, time);
-        one->look();
+        one->check();
         methods.push_back(std::move(one));
       } catch (const UsageError& error) {
         study.notes.push_back(fmt::format("{}, {}×{}: {}", variant.name, cells, cells, error.what()));
@@ -328,7 +329,7 @@ NamedChart chart_of(const ScalingStudy& study, const std::string& name, const st
       series.points.push_back({p.vertices,
                                value(p),
                                fmt::format("{0}×{0}: {1} {2}", p.cells, three_digits(value(p)), unit),
-                               p.what.command(),
+                               p.study_case.command(),
                                {}});
     }
     chart.series.push_back(std::move(series));

@@ -34,7 +34,7 @@ struct ScalingPoint {
   std::string method;  ///< "implicit, cholesky"
   int cells = 0;       ///< cells along a side
   double vertices = 0;
-  StudyCase what;
+  StudyCase study_case;
   double step = 0;        ///< step length h [s]
   double iterations = 0;  ///< mean per step; 0 for a method without iterations
   MedianInterval time;    ///< time per step [µs]

@@ -189,13 +189,13 @@ namespace {
 
 StudyCase study_case(const ValidationCase& of, const ValidationProblem& problem,
                      const std::vector<std::string>& overrides, const std::string& label) {
-  StudyCase what;
-  what.label = label;
-  what.scene = of.scene;
-  what.overrides = problem.overrides;
-  what.overrides.insert(what.overrides.end(), overrides.begin(), overrides.end());
-  what.steps = what.load().step_count();
-  return what;
+  StudyCase study_case;
+  study_case.label = label;
+  study_case.scene = of.scene;
+  study_case.overrides = problem.overrides;
+  study_case.overrides.insert(study_case.overrides.end(), overrides.begin(), overrides.end());
+  study_case.steps = study_case.load().step_count();
+  return study_case;
 }
 
 void plan_case(const ValidationCase& of, const ValidationOptions& options, std::vector<ValidationRun>& runs) {
@@ -206,7 +206,7 @@ void plan_case(const ValidationCase& of, const ValidationOptions& options, std::
     run.problem = problem.name;
     run.factor = factor;
     run.setting = setting;
-    run.what = study_case(of, problem, overrides, setting);
+    run.study_case = study_case(of, problem, overrides, setting);
   };
   const auto wanted = [&](const ValidationProblem& problem) {
     return !options.quick || std::ranges::find(of.quick, problem.name) != of.quick.end();
@@ -282,14 +282,14 @@ bool is_shown(const ValidationCase& of, const ValidationRun& run) {
 bool measure_run(const ValidationCase& of, ValidationRun& run, double patience, const std::stop_token& stop) {
   const double begin = thread_seconds();
   try {
-    const Scene scene = run.what.load();
+    const Scene scene = run.study_case.load();
     run.step = scene.simulation.step;
     run.cell = mean_spring_length(scene.simulation.cloth);
     run.vertices = scene.simulation.cloth.vertex_count();
     ValidationMotion motion(of, scene);
     std::optional<StudyMotionRecorder> recorder;
     if (is_shown(of, run)) recorder.emplace(scene);
-    for (std::int64_t step = 0; step < run.what.steps; ++step) {
+    for (std::int64_t step = 0; step < run.study_case.steps; ++step) {
       if (stop.stop_requested()) return false;
       if (recorder) recorder->add(motion.simulation());
       if (motion.step(run)) break;
@@ -345,7 +345,7 @@ namespace {
 void keep_shard(const Shard& shard, std::vector<ValidationRun>& runs) {
   std::vector<double> costs;
   for (const ValidationRun& run : runs) {
-    const Scene scene = run.what.load();
+    const Scene scene = run.study_case.load();
     costs.push_back(static_cast<double>(scene.step_count()) * scene.simulation.cloth.vertex_count());
   }
   std::vector<ValidationRun> kept;

@@ -97,7 +97,7 @@ struct ValidationRun {
   std::string problem;                     ///< name of the problem in its case
   std::string factor;                      ///< scene_factor, default_factor, "cell", "step", "method", "mesh"
   std::string setting;                     ///< name of the variant; for a factor without variants, the factor
-  StudyCase what;                          ///< the command that runs it
+  StudyCase study_case;                    ///< the command that runs it
   std::optional<std::int64_t> place = {};  ///< position in the plan of all shards; absent without shards
 
   // Measurements:

@@ -419,8 +419,8 @@ constexpr std::size_t most_validation_bytes = std::size_t{1} << 28;
 template <class Fields, class Run>
 void describe_run(Fields& f, Run& run) {
   f("place", run.place);
-  f("set", run.what.overrides);
-  f("steps", run.what.steps);
+  f("set", run.study_case.overrides);
+  f("steps", run.study_case.steps);
   f("failure", run.failure);
   f("seconds", run.seconds);
   f("step", run.step);
@@ -481,8 +481,8 @@ class ValidationReader {
     if (of == study_.cases.end()) record.fail(record.line(), fmt::format("there is no case '{}'", run.name));
     static_cast<void>(of->problem(run.problem));
     if (run.names.size() != run.values.size()) record.fail(record.line(), "expected a value for every quantity");
-    run.what.scene = of->scene;
-    run.what.label = run.setting;
+    run.study_case.scene = of->scene;
+    run.study_case.label = run.setting;
     run.measured = true;
     study_.runs.push_back(std::move(run));
   }
@@ -522,7 +522,7 @@ std::string validation_motions(const ValidationStudy& study) {
   std::vector<ShownMotion> motions;
   for (const ValidationRun& run : study.runs) {
     if (run.played.frames > 0)
-      motions.push_back({run.name, {run.problem, run.what.film_command("motion.html"), run.played}});
+      motions.push_back({run.name, {run.problem, run.study_case.film_command("motion.html"), run.played}});
   }
   return motions_csv(motions);
 }
@@ -571,7 +571,7 @@ void read_validation_runs(const std::filesystem::path& file, ValidationStudy& st
   if (!begun.typed_command.empty()) study.typed_command = begun.typed_command;
   for (const ValidationRun& run : begun.runs) {
     const auto same = std::ranges::find_if(study.runs, [&](const ValidationRun& planned) {
-      return key_of(planned) == key_of(run) && planned.what.overrides == run.what.overrides;
+      return key_of(planned) == key_of(run) && planned.study_case.overrides == run.study_case.overrides;
     });
     if (same != study.runs.end()) *same = run;
   }

@@ -155,7 +155,7 @@ html::ChartSeries found_series(const ValidationStudy& study, const ValidationCas
         {answer.x,
          *value,
          fmt::format("{}: {}, known {}", problem.name, figure_text(*value), figure_text(answer.value)),
-         run->what.command(),
+         run->study_case.command(),
          {}});
   });
   return found;
@@ -207,7 +207,7 @@ NamedChart cost_chart(const ValidationStudy& study, const ValidationCase& of) {
                              worst,
                              fmt::format("{} {}, {}: {} of what is allowed, {} s", run.factor, run.setting, run.problem,
                                          three_digits(worst), seconds_text(run.seconds)),
-                             run.what.command(),
+                             run.study_case.command(),
                              {}});
   }
   return {of.name + "-cost", std::move(chart)};
@@ -221,7 +221,7 @@ StudySection section_of(const ValidationStudy& study, const ValidationCase& of) 
                   fmt::format("Mesh: {}", of.mesh)};
   for (const ValidationRun& run : study.runs) {
     if (run.name != of.name || run.played.frames == 0) continue;
-    section.motions.push_back({run.problem, run.what.film_command("motion.html"), run.played});
+    section.motions.push_back({run.problem, run.study_case.film_command("motion.html"), run.played});
   }
   for (const ValidationCurve& curve : of.curves) {
     section.text.push_back(fmt::format("{}: {}", curve.title, curve.how));

@@ -24,7 +24,8 @@ double square_of_part(double distance) { return distance > 0 ? (1 - 1e-9) * dist
 
 ClosestPointCache::ClosestPointCache(std::size_t points, double reach) : reach_(reach), known_(points), near_(points) {}
 
-bool ClosestPointCache::find_slowly(const PlacedMesh& mesh, std::size_t k, const Point& point, ClosestPoint& foot) {
+bool ClosestPointCache::find_beyond_cache(const PlacedMesh& mesh, std::size_t k, const Point& point,
+                                          ClosestPoint& closest) {
   Known& known = known_[k];
   Near& near = near_[k];
   // Upper bound on the change of every distance.
@@ -35,17 +36,17 @@ bool ClosestPointCache::find_slowly(const PlacedMesh& mesh, std::size_t k, const
   if (gone * gone < known.clear_squared) return false;
   double moved = since(near.point, near.travel);
   if (!covers(near, moved)) {
-    look(mesh, point, known, near);
+    search(mesh, point, known, near);
     if (near.count == 0 || known.clear_squared > 0) return false;
     moved = 0;
   } else if (++near.asked > patience) {
     remeasure(mesh, point, moved, nearly_equal * reach_, near);
     moved = 0;
   }
-  if (covers(near, moved)) return find_among(mesh, point, moved, known, near, foot);
+  if (covers(near, moved)) return find_among(mesh, point, moved, known, near, closest);
   // More triangles are equally near than the list holds.
-  foot = mesh.find(point, reach_, known.triangle).value_or(ClosestPoint{.distance = reach_});
-  return foot.distance < reach_;
+  closest = mesh.find(point, reach_, known.triangle).value_or(ClosestPoint{.distance = reach_});
+  return closest.distance < reach_;
 }
 
 bool ClosestPointCache::covers(const Near& near, double moved) const {
@@ -53,7 +54,7 @@ bool ClosestPointCache::covers(const Near& near, double moved) const {
 }
 
 bool ClosestPointCache::find_among(const PlacedMesh& mesh, const Point& point, double moved, Known& known,
-                                   const Near& near, ClosestPoint& foot) const {
+                                   const Near& near, ClosestPoint& closest) const {
   int triangle = known.triangle;
   Nearest best = mesh.nearest_on(triangle, point);
   // Lower bounds on the other distances, from tested triangles at the new position and the rest at the old one.
@@ -81,16 +82,16 @@ bool ClosestPointCache::find_among(const PlacedMesh& mesh, const Point& point, d
     }
   }
   const double runner_up = std::min(std::sqrt(second), not_compared - moved);
-  foot = mesh.foot(point, triangle, best);
+  closest = mesh.closest_point(point, triangle, best);
   known = {.point = point,
            .travel = mesh.travel(),
-           .clear_squared = square_of_part(foot.distance - reach_),
+           .clear_squared = square_of_part(closest.distance - reach_),
            .same_triangle_squared = square_of_part((runner_up - std::sqrt(best.squared) - nearly_equal * reach_) / 2),
            .triangle = triangle};
-  return foot.distance < reach_;
+  return closest.distance < reach_;
 }
 
-void ClosestPointCache::look(const PlacedMesh& mesh, const Point& point, Known& known, Near& near) const {
+void ClosestPointCache::search(const PlacedMesh& mesh, const Point& point, Known& known, Near& near) const {
   known = {.point = point, .travel = mesh.travel()};
   near.point = point;
   near.travel = mesh.travel();
@@ -140,7 +141,8 @@ void ClosestPointCache::look(const PlacedMesh& mesh, const Point& point, Known& 
   std::copy_n(least.begin(), near.count, near.least.begin());
   std::copy_n(triangles.begin(), near.count, near.triangles.begin());
   known.triangle = nearest;
-  known.clear_squared = square_of_part(mesh.foot(point, nearest, mesh.nearest_on(nearest, point)).distance - reach_);
+  known.clear_squared =
+      square_of_part(mesh.closest_point(point, nearest, mesh.nearest_on(nearest, point)).distance - reach_);
 }
 
 void ClosestPointCache::remeasure(const PlacedMesh& mesh, const Point& point, double moved, double rounding,

@@ -17,16 +17,16 @@ class ClosestPointCache {
   ClosestPointCache(std::size_t points, double reach);
 
   /// Finds a point's closest point like PlacedMesh::find. Returns true if it is within the search radius.
-  bool find(const PlacedMesh& mesh, std::size_t k, const Point& point, ClosestPoint& foot) {
+  bool find(const PlacedMesh& mesh, std::size_t k, const Point& point, ClosestPoint& closest) {
     const Known& known = known_[k];
     // Scalars, as the point has just been computed and a vector would go through memory.
     const double x = point[0] - known.point[0], y = point[1] - known.point[1], z = point[2] - known.point[2];
     const double squared = x * x + y * y + z * z;
     if (mesh.travel() == known.travel && squared < known.clear_squared) return false;
     if (mesh.travel() != known.travel || !(squared < known.same_triangle_squared))
-      return find_slowly(mesh, k, point, foot);
-    foot = mesh.foot(point, known.triangle, mesh.nearest_on(known.triangle, point));
-    return foot.distance < reach_;
+      return find_beyond_cache(mesh, k, point, closest);
+    closest = mesh.closest_point(point, known.triangle, mesh.nearest_on(known.triangle, point));
+    return closest.distance < reach_;
   }
 
  private:
@@ -50,13 +50,13 @@ class ClosestPointCache {
     std::array<double, most> least = {};  // lower bounds of their distances, ascending [m]
     std::array<int, most> triangles = {};
   };
-  bool find_slowly(const PlacedMesh& mesh, std::size_t k, const Point& point, ClosestPoint& foot);
+  bool find_beyond_cache(const PlacedMesh& mesh, std::size_t k, const Point& point, ClosestPoint& closest);
   /// Searches the mesh for triangles near a point.
-  void look(const PlacedMesh& mesh, const Point& point, Known& known, Near& near) const;
+  void search(const PlacedMesh& mesh, const Point& point, Known& known, Near& near) const;
   /// Measures the cached triangles again from the point's position, `moved` from the previous one [m].
   static void remeasure(const PlacedMesh& mesh, const Point& point, double moved, double rounding, Near& near);
   bool find_among(const PlacedMesh& mesh, const Point& point, double moved, Known& known, const Near& near,
-                  ClosestPoint& foot) const;
+                  ClosestPoint& closest) const;
   /// Returns true if the nearest triangle must be in the list after distances changed by at most `moved` [m].
   [[nodiscard]] bool covers(const Near& near, double moved) const;
 

@@ -126,17 +126,17 @@ bool PlacedMesh::encloses(const Point& point) const {
 }
 
 ClosestPoint PlacedMesh::foot_on_edge(const Point& point, int triangle, const Nearest& near) const {
-  ClosestPoint foot{.triangle = triangle, .weights = {-near.weights[1], -near.weights[2], -near.weights[3]}};
-  const Point away = point - foot.weights[0] * corner(triangle, 0) - foot.weights[1] * corner(triangle, 1) -
-                     foot.weights[2] * corner(triangle, 2);
-  const Point out = normal_at(triangle, foot.weights);
+  ClosestPoint closest{.triangle = triangle, .weights = {-near.weights[1], -near.weights[2], -near.weights[3]}};
+  const Point away = point - closest.weights[0] * corner(triangle, 0) - closest.weights[1] * corner(triangle, 1) -
+                     closest.weights[2] * corner(triangle, 2);
+  const Point out = normal_at(triangle, closest.weights);
   // Normals are useless where a mesh folds onto itself, as skin may at an elbow.
   const bool folded = solid() && out.squaredNorm() < sharpest_fold * sharpest_fold;
   const bool inside = folded ? encloses(point) : out.dot(away) < 0;
   const double length = std::sqrt(near.squared);
-  foot.distance = inside ? -length : length;
-  foot.normal = length > 0 ? Point(away / foot.distance) : Point(out.stableNormalized());
-  return on_its_side(foot);
+  closest.distance = inside ? -length : length;
+  closest.normal = length > 0 ? Point(away / closest.distance) : Point(out.stableNormalized());
+  return on_its_side(closest);
 }
 
 std::optional<ClosestPoint> PlacedMesh::find(const Point& point, double reach, int hint) const {
@@ -158,7 +158,7 @@ std::optional<ClosestPoint> PlacedMesh::find(const Point& point, double reach, i
   if (hint >= 0) look_at(hint);
   tree_.for_nearest(point, limit, look_at);
   if (found < 0) return std::nullopt;
-  return foot(point, found, best);
+  return closest_point(point, found, best);
 }
 
 MovingBody::MovingBody(std::shared_ptr<const MeshMotion> shape, RigidMotion motion)

@@ -75,7 +75,7 @@ class PlacedMesh {
     return (1 - 1e-9) * (height * height + beyond);
   }
   /// Returns the result of find() for a given nearest triangle.
-  [[nodiscard]] ClosestPoint foot(const Point& point, int triangle, const Nearest& near) const {
+  [[nodiscard]] ClosestPoint closest_point(const Point& point, int triangle, const Nearest& near) const {
     const Facet& facet = facets_[static_cast<std::size_t>(triangle)];
     const std::array<double, 4>& w = near.weights;
     const bool inside = w[1] != 0 && w[2] != 0 && w[3] != 0;
@@ -115,12 +115,12 @@ class PlacedMesh {
   /// "Robust inside-outside segmentation using generalized winding numbers"). Visits every triangle.
   [[nodiscard]] bool encloses(const Point& point) const;
   /// Returns the closest point, on the point's own side if the mesh is a shell.
-  [[nodiscard]] ClosestPoint on_its_side(ClosestPoint foot) const {
-    if (!topology_->closed && foot.distance < 0) {
-      foot.distance = -foot.distance;
-      foot.normal = -foot.normal;
+  [[nodiscard]] ClosestPoint on_its_side(ClosestPoint closest) const {
+    if (!topology_->closed && closest.distance < 0) {
+      closest.distance = -closest.distance;
+      closest.normal = -closest.normal;
     }
-    return foot;
+    return closest;
   }
 
   std::shared_ptr<const MeshTopology> topology_;

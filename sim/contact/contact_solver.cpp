@@ -285,7 +285,7 @@ void ContactSolver::iterate_linearly(ContactProblem& problem) {
   residual_ = gradient_;
   double energy = 0, first = 0;
   for (int iteration = 0; iteration < most_linear_iterations; ++iteration) {
-    system_.stop.look();
+    system_.stop.check();
     preconditioner_.apply(residual_, preconditioned_,
                           [&](const Vertices& a, Vertices& b) { problem.precondition(a, b); });
     const double before = energy;
@@ -318,7 +318,7 @@ double ContactSolver::descend(ContactProblem& problem, Iterate& point, double va
   const double slope = dot(system_.threads, gradient_, direction_);
   const double first = std::min(1.0, longest_move_ / longest(direction_));
   for (double length = first; length >= shortest_move; length /= 2) {
-    system_.stop.look();
+    system_.stop.check();
     sum(system_.threads, point.x, -length, direction_, trial_.x);
     trial_.value = problem.evaluate(trial_.x, trial_.gradient);
     double after = trial_.value;

@@ -241,8 +241,8 @@ BodyContacts::BodyContacts(std::shared_ptr<const MovingBody> body, const Contact
       cloth_(cloth),
       threads_(threads),
       cloth_count_(cloth.vertex_count()),
-      feet_(static_cast<Index>(cloth.vertex_count()), 2 * terms.distance),
-      start_feet_(feet_) {}
+      closest_(static_cast<Index>(cloth.vertex_count()), 2 * terms.distance),
+      start_closest_(closest_) {}
 
 void BodyContacts::prepare() {
   const Index corners = start_.mesh->points().size();
@@ -277,8 +277,8 @@ void BodyContacts::find_astray() {
   entanglement_->find(x_);
   if (!start_.mesh->solid()) return;
   for (Index i = 0; i < inside_.size(); ++i) {
-    ClosestPoint foot;
-    inside_[i] = start_feet_.find(*start_.mesh, i, x_[i], foot) && foot.distance < 0 ? 1 : 0;
+    ClosestPoint closest;
+    inside_[i] = start_closest_.find(*start_.mesh, i, x_[i], closest) && closest.distance < 0 ? 1 : 0;
   }
   find_through();
 }
@@ -298,30 +298,30 @@ void BodyContacts::find_through() {
     }
     share /= count;
     if (edge[1] >= cloth_count_ || inside_[Index(edge[0])] != 0 || inside_[Index(edge[1])] != 0) continue;
-    const auto foot = start_.mesh->find(from + share * (to - from), 0);
-    if (foot && foot->distance < 0) through_.push_back({edge, share, *foot});
+    const auto closest = start_.mesh->find(from + share * (to - from), 0);
+    if (closest && closest->distance < 0) through_.push_back({edge, share, *closest});
   }
 }
 
 void BodyContacts::bring_out(int source, std::vector<ContactConstraint>& contacts) const {
   for (const Through& through : through_) {
-    const Triangle& t = body_->topology().triangles[Index(through.foot.triangle)];
+    const Triangle& t = body_->topology().triangles[Index(through.closest.triangle)];
     Point from = Point::Zero(), to = Point::Zero();
     for (Index c = 0; c < 3; ++c) {
       const Index corner = Index(cloth_count_) + Index(t[c]);
-      from += through.foot.weights[static_cast<Eigen::Index>(c)] * start_.pose.out(x_[corner]);
-      to += through.foot.weights[static_cast<Eigen::Index>(c)] * end_.pose.out(target_[corner]);
+      from += through.closest.weights[static_cast<Eigen::Index>(c)] * start_.pose.out(x_[corner]);
+      to += through.closest.weights[static_cast<Eigen::Index>(c)] * end_.pose.out(target_[corner]);
     }
     ContactConstraint contact;
     contact.key = {source, through_kind, {through.edge[0], through.edge[1], -1, -1}};
     contact.count = 2;
     contact.vertices = {through.edge[0], through.edge[1], 0, 0};
     contact.weights = {1 - through.share, through.share, 0, 0};
-    contact.normal = end_.pose.turn * through.foot.normal;
+    contact.normal = end_.pose.turn * through.closest.normal;
     contact.offset = -to;
     contact.carried = from - to;
     contact.start = contact.gather(*world_) - from;
-    contact.distance = distance_at_end(through.foot.distance, kept_part * terms_.distance, duration_);
+    contact.distance = distance_at_end(through.closest.distance, kept_part * terms_.distance, duration_);
     contacts.push_back(contact);
   }
 }
@@ -414,19 +414,20 @@ void BodyContacts::find_vertices(int source, const std::vector<ContactConstraint
     while (known != held.end() && known->key < key) ++known;
     const bool bears = known != held.end() && known->key == key;
     if (entanglement_ && !start_.mesh->solid() && entanglement_->is_astray(i)) continue;
-    ClosestPoint foot;
-    if (!feet_.find(*end_.mesh, Index(i), target_[Index(i)], foot)) {
+    ClosestPoint closest;
+    if (!closest_.find(*end_.mesh, Index(i), target_[Index(i)], closest)) {
       if (!bears) continue;
       const auto far = end_.mesh->find(target_[Index(i)], 100 * terms_.distance);
       if (!far) continue;
-      foot = *far;
+      closest = *far;
     }
-    if (!bears && foot.distance >= 2 * terms_.distance) continue;
+    if (!bears && closest.distance >= 2 * terms_.distance) continue;
     ClosestPoint before;
-    const bool was_near = start_feet_.find(*start_.mesh, Index(i), x_[Index(i)], before);
-    const Triangle& t = body_->topology().triangles[Index(foot.triangle)];
-    ContactConstraint contact = make({i, cloth_count_ + t[0], cloth_count_ + t[1], cloth_count_ + t[2]},
-                                     {1, -foot.weights[0], -foot.weights[1], -foot.weights[2]}, foot.normal);
+    const bool was_near = start_closest_.find(*start_.mesh, Index(i), x_[Index(i)], before);
+    const Triangle& t = body_->topology().triangles[Index(closest.triangle)];
+    ContactConstraint contact =
+        make({i, cloth_count_ + t[0], cloth_count_ + t[1], cloth_count_ + t[2]},
+             {1, -closest.weights[0], -closest.weights[1], -closest.weights[2]}, closest.normal);
     contact.key = key;
     contact.distance = was_near ? distance_at_end(before.distance, terms_.distance, duration_) : terms_.distance;
     contacts.push_back(contact);

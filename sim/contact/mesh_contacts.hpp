@@ -214,8 +214,8 @@ class BodyContacts final : public ContactSource {
   /// An edge of the cloth through a solid.
   struct Through {
     Edge edge;
-    double share;       ///< of the way from its first to its second end, where the middle of the part inside is
-    ClosestPoint foot;  ///< of that
+    double share;          ///< of the way from its first to its second end, where the middle of the part inside is
+    ClosestPoint closest;  ///< of that
   };
 
   std::shared_ptr<const MovingBody> body_;
@@ -225,7 +225,7 @@ class BodyContacts final : public ContactSource {
   int cloth_count_;
   BodyAt start_, end_;
   std::optional<BodyCandidates> candidates_;
-  ClosestPointCache feet_, start_feet_;
+  ClosestPointCache closest_, start_closest_;
   double duration_ = 0;
   bool searched_ = false;
   std::optional<Entanglement> entanglement_;   // at the start of the step, if it is to be separated

@@ -173,7 +173,7 @@ StrainFilter::StrainFilter(const StrainLimit& limits, const Cloth& cloth)
     ranges_.push_back({.i = s.i, .j = s.j, .least = s.shortest * s.shortest, .most = s.longest * s.longest});
   }
   moved_.reserve(change_.size());
-  for (auto* list : {&active_, &watched_, &merged_, &restless_}) list->reserve(limited_.size());
+  for (auto* list : {&active_, &watched_, &merged_, &unconverged_}) list->reserve(limited_.size());
   expected_.reserve(limited_.size());
   string_.reserve(limited_.size());
 }
@@ -195,7 +195,7 @@ void StrainFilter::apply(const Vertices& x, double /*time*/, double h, Vertices&
 void StrainFilter::relax_from(const Vertices& x, double h, Vertices& v, int most_sweeps) {
   forget();
   find_beyond(x, h, v);
-  for (const Pull& pull : expected_) give(limited_[pull.limited], -h * h * pull.tension);
+  for (const Pull& pull : expected_) set_impulse(limited_[pull.limited], -h * h * pull.tension);
   converged_ = active_.empty();
   pace_ = 1;
   ahead_ = 0;
@@ -205,16 +205,17 @@ void StrainFilter::relax_from(const Vertices& x, double h, Vertices& v, int most
   for (int sweep = 0; sweep < most_sweeps && !converged_; ++sweep) {
     check_stop();
     const bool early = sweep < early_sweeps;
-    if (sweep > 0) go_on(value);
+    if (sweep > 0) extrapolate(value);
     relax_all(early);
     pull_strings();
     value = assess();
-    if (!restless_.empty() && static_cast<double>(restless_.size()) <= few * static_cast<double>(active_.size())) {
+    if (!unconverged_.empty() &&
+        static_cast<double>(unconverged_.size()) <= few * static_cast<double>(active_.size())) {
       settle(early);
       value = assess();
     }
-    if (!restless_.empty() && sweep < next_look) continue;
-    converged_ = look_around(x, early) && restless_.empty();
+    if (!unconverged_.empty() && sweep < next_look) continue;
+    converged_ = look_around(x, early) && unconverged_.empty();
     next_look = sweep + sweeps_between_looks;
   }
   for (const int i : moved_) {
@@ -365,35 +366,35 @@ void StrainFilter::relax(Limited& s, bool early) {
     const double most = std::sqrt(std::max(0.0, s.longest * s.longest - across));
     const double least = s.shortest > 0 ? std::sqrt(std::max(0.0, s.shortest * s.shortest - across)) : 0;
     const double length = along - s.weight * s.impulse.dot(s.direction);  // without its own impulse
-    give(s, (std::clamp(length, least, most) - length) / s.weight);
+    set_impulse(s, (std::clamp(length, least, most) - length) / s.weight);
     return;
   }
   const Eigen::Vector3d free = end - s.weight * s.impulse;
   const double length = free.norm();
   if (length > 0) s.direction = free / length;
-  give(s, (std::clamp(length, s.shortest, s.longest) - length) / s.weight);
+  set_impulse(s, (std::clamp(length, s.shortest, s.longest) - length) / s.weight);
 }
 
 /// Sweeps over the unconverged springs and their neighbours until they hold.
 void StrainFilter::settle(bool early) {
-  for (const Index k : restless_) limited_[k].stage = Stage::unconverged;
+  for (const Index k : unconverged_) limited_[k].stage = Stage::unconverged;
   for (Index ring = 0, inner = 0; ring < rings; ++ring) {
-    for (const Index outer = restless_.size(); inner < outer; ++inner) {
-      for (const int end : {limited_[restless_[inner]].i, limited_[restless_[inner]].j}) {
+    for (const Index outer = unconverged_.size(); inner < outer; ++inner) {
+      for (const int end : {limited_[unconverged_[inner]].i, limited_[unconverged_[inner]].j}) {
         for (const Index other : springs_at_[Index(end)]) {
           if (limited_[other].stage != Stage::active) continue;
           limited_[other].stage = Stage::unconverged;
-          restless_.push_back(other);
+          unconverged_.push_back(other);
         }
       }
     }
   }
   const auto hold = [this](Index k) { return holds(limited_[k], end_of(limited_[k])); };
   for (int pass = 0; pass < most_passes; ++pass) {
-    for (const Index k : restless_) relax(limited_[k], early);
-    if (std::ranges::all_of(restless_, hold)) break;
+    for (const Index k : unconverged_) relax(limited_[k], early);
+    if (std::ranges::all_of(unconverged_, hold)) break;
   }
-  for (const Index k : restless_) limited_[k].stage = Stage::active;
+  for (const Index k : unconverged_) limited_[k].stage = Stage::active;
 }
 
 /// Balances each string of active springs that pull.
@@ -427,7 +428,7 @@ void StrainFilter::pull_string(Index first, Index count) {
   balance(string_);
   for (Index k = 0; k < count; ++k) {
     const Tension& t = string_[k];
-    if (t.more != 0) give(limited_[active_[first + k]], -(t.pull + t.more));
+    if (t.more != 0) set_impulse(limited_[active_[first + k]], -(t.pull + t.more));
   }
 }
 
@@ -443,11 +444,11 @@ bool StrainFilter::holds(const Limited& s, const Eigen::Vector3d& end) const {
 /// Returns φ and collects the springs that do not hold.
 double StrainFilter::assess() {
   double value = 0;
-  restless_.clear();
+  unconverged_.clear();
   for (const Index k : active_) {
     const Limited& s = limited_[k];
     const Eigen::Vector3d way = change_[Index(s.i)] - change_[Index(s.j)];
-    if (!holds(s, s.end + way)) restless_.push_back(k);
+    if (!holds(s, s.end + way)) unconverged_.push_back(k);
     // ‖δ‖²_M is the work of the impulses along δ.
     value += s.impulse.dot(s.end + 0.5 * way) - s.push * (s.push > 0 ? s.shortest : s.longest);
   }
@@ -456,22 +457,22 @@ double StrainFilter::assess() {
 
 /// Extrapolates the impulses of a sweep along their last change. If the last extrapolation raised φ to this value,
 /// restores the impulses of the previous sweep instead.
-void StrainFilter::go_on(double value) {
-  if (value > last_value_ && ahead_ > 0) return go_back();
+void StrainFilter::extrapolate(double value) {
+  if (value > last_value_ && ahead_ > 0) return undo_extrapolation();
   last_value_ = value;
   const double next = (1 + std::sqrt(1 + 4 * pace_ * pace_)) / 2;
   ahead_ = (pace_ - 1) / next;
   pace_ = next;
-  const auto extrapolate = [part = ahead_](Eigen::Vector3d& now, Eigen::Vector3d& last) {
+  const auto continue_change = [part = ahead_](Eigen::Vector3d& now, Eigen::Vector3d& last) {
     const Eigen::Vector3d further = now + part * (now - last);
     last = now;
     now = further;
   };
-  for (const Index k : active_) extrapolate(limited_[k].impulse, limited_[k].last);
-  for (const int i : moved_) extrapolate(change_[Index(i)], last_change_[Index(i)]);
+  for (const Index k : active_) continue_change(limited_[k].impulse, limited_[k].last);
+  for (const int i : moved_) continue_change(change_[Index(i)], last_change_[Index(i)]);
 }
 
-void StrainFilter::go_back() {
+void StrainFilter::undo_extrapolation() {
   pace_ = 1;
   ahead_ = 0;
   for (const Index k : active_) limited_[k].impulse = limited_[k].last;

@@ -112,7 +112,7 @@ class StrainFilter final : public MotionFilter {
   void settle(bool early);
   void pull_strings();
   void pull_string(Index first, Index count);
-  void give(Limited& s, double push) {
+  void set_impulse(Limited& s, double push) {
     s.push = push;
     const Eigen::Vector3d impulse = push * s.direction, more = impulse - s.impulse;
     s.impulse = impulse;
@@ -121,8 +121,8 @@ class StrainFilter final : public MotionFilter {
   }
   [[nodiscard]] bool holds(const Limited& s, const Eigen::Vector3d& end) const;
   [[nodiscard]] double assess();
-  void go_on(double value);
-  void go_back();
+  void extrapolate(double value);
+  void undo_extrapolation();
 
   StrainLimit limits_;
   bool free_;                                          // without pins, so that angular momentum is conserved
@@ -136,7 +136,7 @@ class StrainFilter final : public MotionFilter {
   std::vector<Pull> expected_;                         // from the last step, in the order of limited_
   Restraint restraint_;
   std::vector<char> is_moved_;
-  std::vector<Index> active_, watched_, merged_, restless_;
+  std::vector<Index> active_, watched_, merged_, unconverged_;
   std::vector<std::vector<Index>> springs_at_;  // per vertex
   std::vector<Tension> string_;
   double pace_ = 1, ahead_ = 0;  // Nesterov's t, and the extrapolated fraction of the last change

@@ -75,9 +75,9 @@ ConstantFactor::ConstantFactor(const System& system, double duration, Precision 
 bool ConstantFactor::factor_columns(const LowerPattern& pattern, const std::vector<double>& values, const Stop& stop,
                                     const FreeVertices& free) {
   SparseCholesky factor(pattern, tolerated_zeros * (sizeof(double) + sizeof(float)));
-  stop.look();
+  stop.check();
   if (!factor.factorize(values.data())) return false;
-  stop.look();
+  stop.check();
   number_rows(factor.permutation(), free);
   find_panels(factor.columns());
   copy(factor.columns());
@@ -86,9 +86,9 @@ bool ConstantFactor::factor_columns(const LowerPattern& pattern, const std::vect
 
 bool ConstantFactor::factor_fronts(const LowerPattern& pattern, const std::vector<double>& values, const System& system,
                                    const FreeVertices& free) {
-  system.stop.look();
+  system.stop.check();
   MultifrontalCholesky factor(pattern, dissect(pattern, free.rest_places(system.cloth)), Solves::many, sizeof(float));
-  if (!factor.factorize(values.data(), [&] { system.stop.look(); })) return false;
+  if (!factor.factorize(values.data(), [&] { system.stop.check(); })) return false;
   number_rows(factor.permutation().data(), free);
   entries_ = factor.entries();
   auto parts = std::move(factor).take();

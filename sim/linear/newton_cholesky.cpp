@@ -225,7 +225,7 @@ void NewtonCholesky::assemble(const Vertices& x, double concavity) {
 bool NewtonCholesky::factorize(const Vertices& x, double most) {
   for (double share = std::min(most, concavity_); share >= least_concavity; share /= 4) {
     assemble(x, share);
-    if (factor_->factorize(values_.data(), [this] { system_.stop.look(); })) {
+    if (factor_->factorize(values_.data(), [this] { system_.stop.check(); })) {
       concavity_ = 4 * share;
       return true;
     }
@@ -240,7 +240,7 @@ bool NewtonCholesky::factorize_positive() {
   // Wright 2006, algorithm 3.3).
   double largest = 0;
   for (const int start : column_starts_) largest = std::max(largest, values_[Index(start)]);
-  const auto look = [this] { system_.stop.look(); };
+  const auto look = [this] { system_.stop.check(); };
   for (double shift = first_shift * largest; !factor_->factorize(values_.data(), look); shift *= 10) {
     if (!(shift <= largest)) return false;
     for (const int start : column_starts_) values_[Index(start)] += shift;

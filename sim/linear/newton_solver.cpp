@@ -97,7 +97,7 @@ bool ConjugateGradients::solve_within(int iterations, const Vertices& x, const V
   double energy = 0;  // residual · A⁻¹ residual
   for (int iteration = 0; norm(threads, residual_) > enough; ++iteration) {
     if (iteration == iterations) return false;
-    system_.stop.look();
+    system_.stop.check();
     precondition();
     const double before = energy;
     energy = dot(threads, residual_, preconditioned_);

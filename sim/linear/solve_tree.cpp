@@ -22,7 +22,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 void wait_for(const Threads& threads, const std::atomic<unsigned>& done, unsigned solve) {
   if (done.load(std::memory_order_acquire) == solve) return;
   Wait wait(threads);
-  while (done.load(std::memory_order_acquire) != solve) wait.go_on();
+  while (done.load(std::memory_order_acquire) != solve) wait.keep_waiting();
 }
 
 }  // namespace

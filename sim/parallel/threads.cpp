@@ -77,7 +77,7 @@ class Threads::Crew {
   /// Returns true if this thread divides the current loop.
   [[nodiscard]] bool divided_here() const { return divider_ == std::this_thread::get_id(); }
 
-  BusyBackoff turnout;
+  BusyBackoff backoff;
   BusyBackoff::Time waited{0};  // time that the dividing thread has waited in the current loop
 
  private:
@@ -87,7 +87,7 @@ class Threads::Crew {
     if (done == parts) return;
     Wait wait(threads);
     for (; done < parts; done = done_.load(std::memory_order_acquire)) {
-      if (wait.go_on()) done_.wait(done, std::memory_order_acquire);
+      if (wait.keep_waiting()) done_.wait(done, std::memory_order_acquire);
     }
   }
 
@@ -157,10 +157,10 @@ void Threads::divide(int parts, void* given, void (*call)(void* given, int part)
   const BusyBackoff::Time begin = now();
   crew_->divide(*this, parts, given, call);
   const BusyBackoff::Time end = now();
-  crew_->turnout.note(end - begin, crew_->waited, end);
+  crew_->backoff.note(end - begin, crew_->waited, end);
 }
 
-bool Threads::alone() const { return spare_ && crew_ && crew_->turnout.active(now()); }
+bool Threads::alone() const { return spare_ && crew_ && crew_->backoff.active(now()); }
 
 const Threads& one_thread() {
   static const Threads one;

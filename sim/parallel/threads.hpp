@@ -70,7 +70,7 @@ class Wait {
   Wait& operator=(const Wait&) = delete;
 
   /// Waits once more. @returns true if it has been awake long enough to sleep
-  bool go_on() { return patience_.wait(); }
+  bool keep_waiting() { return patience_.wait(); }
 
  private:
   const Threads& threads_;

@@ -143,7 +143,7 @@ double EnergyBooks::shed(Iterate& point, bool touches) {
   const Vertices way = point.x - back;
   Iterate trial{.x = point.x, .gradient = point.gradient};
   const auto gains_at = [&](double length) {
-    system_.stop.look();
+    system_.stop.check();
     trial.x = back + length * way;
     trial.value = objective_.evaluate(trial.x, trial.gradient);
     return !(gain(trial) <= 0);

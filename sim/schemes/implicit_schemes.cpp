@@ -223,18 +223,18 @@ Sdirk2Guard::Sdirk2Guard(const System& system)
 
 void Sdirk2Guard::begin(const State& state, double energy) {
   if (!watches_) return;
-  books_ = {.explained = std::max(energy, rounding_), .looked_at = state.x, .work = energy, .energy = energy};
+  books_ = {.explained = std::max(energy, rounding_), .checked_at = state.x, .work = energy, .energy = energy};
 }
 
-void Sdirk2Guard::go_on(const EnergyMemory& books) {
+void Sdirk2Guard::restore(const EnergyMemory& books) {
   if (watches_) books_ = books;
 }
 
-std::optional<double> Sdirk2Guard::look(const State& state, const Vertices& push, bool /*constant*/,
-                                        const EnergyNow& energy) {
+std::optional<double> Sdirk2Guard::check_step(const State& state, const Vertices& push, bool /*constant*/,
+                                              const EnergyNow& energy) {
   if (!watches_) return std::nullopt;
   EnergyMemory& books = *books_;
-  const double work = push.cwiseProduct(state.x - books.looked_at).sum();
+  const double work = push.cwiseProduct(state.x - books.checked_at).sum();
   const double before = books.energy.value_or(books.work);
   books.work += work;
   books.explained = std::max(books.explained, books.work);
@@ -242,7 +242,7 @@ std::optional<double> Sdirk2Guard::look(const State& state, const Vertices& push
   const double most = before + work + std::clamp(books.work + slack - before - work, 0.0, slack);
   const double now = energy(most);
   books.energy = now;
-  books.looked_at = state.x;
+  books.checked_at = state.x;
   if (now <= most) return std::nullopt;
   return now / books.explained;
 }

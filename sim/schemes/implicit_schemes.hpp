@@ -263,9 +263,10 @@ class Sdirk2Guard final : public StabilityGuard {
   [[nodiscard]] std::optional<std::string> problem() const override { return condition_.problem(); }
   [[nodiscard]] double longest_step() const override { return condition_.longest_step(); }
   void begin(const State& state, double energy) override;
-  std::optional<double> look(const State& state, const Vertices& push, bool constant, const EnergyNow& energy) override;
+  std::optional<double> check_step(const State& state, const Vertices& push, bool constant,
+                                   const EnergyNow& energy) override;
   [[nodiscard]] const EnergyMemory* books() const override { return books_ ? &*books_ : nullptr; }
-  void go_on(const EnergyMemory& books) override;
+  void restore(const EnergyMemory& books) override;
   [[nodiscard]] std::string remedy() const override;
 
  private:

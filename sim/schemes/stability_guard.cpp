@@ -33,13 +33,13 @@ void SafeStepGuard::begin(const State& state, double energy) {
   if (watch_) watch_->begin(state, energy);
 }
 
-std::optional<double> SafeStepGuard::look(const State& state, const Vertices& push, bool constant,
-                                          const EnergyNow& energy) {
-  return watch_ ? watch_->look(state, push, constant, energy) : std::nullopt;
+std::optional<double> SafeStepGuard::check_step(const State& state, const Vertices& push, bool constant,
+                                                const EnergyNow& energy) {
+  return watch_ ? watch_->check_step(state, push, constant, energy) : std::nullopt;
 }
 
-void SafeStepGuard::go_on(const EnergyMemory& books) {
-  if (watch_) watch_->go_on(books);
+void SafeStepGuard::restore(const EnergyMemory& books) {
+  if (watch_) watch_->restore(books);
 }
 
 std::string SafeStepGuard::remedy() const {

@@ -35,15 +35,15 @@ class StabilityGuard {
   /// Checks a step that ended in a state, after its `step` was advanced.
   /// @param push forces of the step, n×3 [N]; @param constant true if they are the same in every step
   /// @returns the ratio of the cloth's energy to the explained energy, if it is too large
-  virtual std::optional<double> look(const State& /*state*/, const Vertices& /*push*/, bool /*constant*/,
-                                     const EnergyNow& /*energy*/) {
+  virtual std::optional<double> check_step(const State& /*state*/, const Vertices& /*push*/, bool /*constant*/,
+                                           const EnergyNow& /*energy*/) {
     return std::nullopt;
   }
 
   /// Returns the checkpoint state of the watch, or null.
   [[nodiscard]] virtual const EnergyMemory* books() const { return nullptr; }
   /// Restores the checkpoint state of a motion.
-  virtual void go_on(const EnergyMemory& /*books*/) {}
+  virtual void restore(const EnergyMemory& /*books*/) {}
 
   /// Returns the advice for a motion that blew up, as the end of a message.
   [[nodiscard]] virtual std::string remedy() const = 0;
@@ -59,9 +59,10 @@ class SafeStepGuard final : public StabilityGuard {
   [[nodiscard]] std::optional<std::string> problem() const override;
   [[nodiscard]] double longest_step() const override { return safe_step_; }
   void begin(const State& state, double energy) override;
-  std::optional<double> look(const State& state, const Vertices& push, bool constant, const EnergyNow& energy) override;
+  std::optional<double> check_step(const State& state, const Vertices& push, bool constant,
+                                   const EnergyNow& energy) override;
   [[nodiscard]] const EnergyMemory* books() const override { return watch_ ? &watch_->books() : nullptr; }
-  void go_on(const EnergyMemory& books) override;
+  void restore(const EnergyMemory& books) override;
   [[nodiscard]] std::string remedy() const override;
 
  private:

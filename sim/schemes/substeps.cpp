@@ -74,7 +74,7 @@ class SubstepScheme::Motion {
 
   /// Advances by a substep.
   void advance(StepReport& report) {
-    system.stop.look();
+    system.stop.check();
     const bool solves = scheme->accuracy().has_value();
     if (solves && done_ > 0) {
       expected_ = kick_ / system.step;
@@ -220,7 +220,7 @@ StepReport DividedStep::advance(State& state, StepForces& forces) {
   StepReport report;
   const std::int64_t step = state.step;
   for (std::int64_t k = 0; k < system_.substeps; ++k) {
-    system_.stop.look();
+    system_.stop.check();
     state.step = step * system_.substeps + k;
     if (const std::int64_t done = scheme_->advance_at_once(state, forces, system_.substeps - k); done > 0) {
       k += done - 1;

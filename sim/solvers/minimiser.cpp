@@ -13,7 +13,7 @@ namespace {
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
 constexpr double shortest_move = 1e-10;       // least step length along a direction
 constexpr int patience = 20;                  // iterations without progress once rounding hides the error
-constexpr double doubt = 2;                   // largest ratio of the distance from the minimum to the Newton step
+constexpr double newton_error_ratio = 2;      // largest ratio of the distance from the minimum to the Newton step
 
 }  // namespace
 
@@ -45,7 +45,7 @@ StepReport Minimiser::minimise(Iterate& point, const std::function<bool()>& may_
   iterations_without_progress_ = 0;
   for (; report.iterations < max_iterations_; ++report.iterations) {
     if (balanced(point, change)) return report;
-    stop_.look();
+    stop_.check();
     const double before = point.value;
     change = iterate(point);
     if (point.value > before) {
@@ -90,12 +90,12 @@ double Minimiser::error(const Iterate& point) {
 }
 
 void Minimiser::note_newton_step(const Vertices& newton_step) {
-  newton_error_ = doubt * newton_step.rowwise().norm().maxCoeff();
+  newton_error_ = newton_error_ratio * newton_step.rowwise().norm().maxCoeff();
 }
 
 double Minimiser::descend(Iterate& point, const Vertices& direction, double slope) {
   for (double length = 1; length >= shortest_move; length /= 2) {
-    if (length < 1) stop_.look();
+    if (length < 1) stop_.check();
     sum(objective_.threads(), point.x, -length, direction, trial_.x);
     trial_.value = objective_.evaluate(trial_.x, trial_.gradient);
     // Near the minimum the decrease of g is below rounding; accept the direction there.

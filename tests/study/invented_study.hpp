@@ -9,7 +9,7 @@ namespace drape::test {
 /// Makes runs with these times per second of motion [ms].
 inline CaseRuns invented_runs(const std::string& scene, double step, std::vector<double> costs) {
   CaseRuns runs;
-  runs.what = {"a \"label\", quoted", scene, {"time.step=0.01", "integrator={method=\"liu13\"}"}, 10, 20};
+  runs.study_case = {"a \"label\", quoted", scene, {"time.step=0.01", "integrator={method=\"liu13\"}"}, 10, 20};
   runs.step = step;
   runs.iterations = 1.0 / 3;
   runs.capped = 2;

@@ -60,8 +60,8 @@ TEST(Measure, ReturnsNothingWhenItIsStopped) {
 // The tables' headings, in the report's words, compared with the cases' scenes and overrides.
 TEST(HomeworkCases, AreThoseOfTheReport) {
   for (const HomeworkRow& row : homework_rows()) {
-    SCOPED_TRACE(row.what.command());
-    const SimulationSettings s = row.what.load().simulation;
+    SCOPED_TRACE(row.study_case.command());
+    const SimulationSettings s = row.study_case.load().simulation;
     const bool semi = row.method == "semi-implicit";
     EXPECT_EQ(method_name(s.integrator.method), row.method);
     EXPECT_EQ(s.step, row.step);
@@ -74,7 +74,7 @@ TEST(HomeworkCases, AreThoseOfTheReport) {
     EXPECT_EQ(has("sphere"), row.table == 2);
     EXPECT_EQ(has("damping"), semi);
     const std::int64_t whole = semi ? 8334 : 417;
-    EXPECT_EQ(row.what.steps, row.table == 2 && row.method == "implicit" ? 167 : whole);
+    EXPECT_EQ(row.study_case.steps, row.table == 2 && row.method == "implicit" ? 167 : whole);
     if (semi) continue;
     EXPECT_EQ(s.integrator.tolerance, std::stod(row.tolerance));
     EXPECT_EQ(s.integrator.max_iterations, row.method == "liu13" ? 100 : 20);
@@ -87,7 +87,7 @@ std::vector<Measured> dull_results(const std::vector<StudyCase>& cases) {
   std::vector<Measured> results;
   for (const StudyCase& one : cases) {
     Measured m;
-    m.what = one;
+    m.study_case = one;
     m.step = one.load().simulation.step;
     m.iterations.assign(static_cast<std::size_t>(one.steps), 3);
     for (std::int64_t i = 0; i < one.steps; ++i) m.height.push_back(-static_cast<double>(i) * m.step);
@@ -100,7 +100,7 @@ std::vector<Measured> dull_results(const std::vector<StudyCase>& cases) {
 TEST(Conclusions, AreNotConfirmedByResultsThatDoNotShowThem) {
   const std::vector<HomeworkRow> rows = homework_rows();
   std::vector<StudyCase> cases;
-  for (const HomeworkRow& row : rows) cases.push_back(row.what);
+  for (const HomeworkRow& row : rows) cases.push_back(row.study_case);
   std::vector<Measured> tables = dull_results(cases);
   const std::vector<Measured> extras = dull_results(homework_extras());
   std::vector<bool> confirmed;

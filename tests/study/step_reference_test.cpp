@@ -45,7 +45,7 @@ TEST(StepReference, IsNearerToTheMotionTheSmallerItsStepsAre) {
 
 TEST(CaseRuns, TheCostOfAMotionHasItsShareOfTheSetUp) {
   CaseRuns runs;
-  runs.what.steps = 10;
+  runs.study_case.steps = 10;
   runs.step = 0.02;
   runs.microseconds = {5, 7, 6};
   runs.setup = {10, 20, 40};

@@ -56,13 +56,13 @@ TEST_P(QuickValidation, IsMet) {
   const StudyReport report = validation_report(study);
   ASSERT_EQ(report.sections.size(), 1U);
   ASSERT_EQ(report.sections[0].motions.size(), 1U) << "its motion, to turn";
-  EXPECT_GE(report.sections[0].motions[0].played.frames, study.runs.front().what.steps > 0 ? 2 : 1);
+  EXPECT_GE(report.sections[0].motions[0].played.frames, study.runs.front().study_case.steps > 0 ? 2 : 1);
   EXPECT_LT(report.sections[0].motions[0].played.data.size(), 1'000'000U);
 }
 
 TEST(Validation, AWrongProblemIsNotMet) {
   ValidationStudy study = plan_validation({.cases = {"catenary"}, .quick = true});
-  study.runs.front().what.overrides.emplace_back("cloth.mesh={grid=[8,1],pattern=\"alternating\",size=[2,0.05]}");
+  study.runs.front().study_case.overrides.emplace_back("cloth.mesh={grid=[8,1],pattern=\"alternating\",size=[2,0.05]}");
   Progress progress;
   ASSERT_TRUE(measure_validation(study, {}, {}, progress, [] {}));
   EXPECT_FALSE(all_met(study));
@@ -76,7 +76,7 @@ TEST(Validation, HasFewerThan400RunsAndDefaultsWithoutAKeyAboutHow) {
   const IntegratorSettings otherwise;
   for (const ValidationRun& run : study.runs) {
     if (run.factor != default_factor) continue;
-    const SimulationSettings settings = run.what.load().simulation;
+    const SimulationSettings settings = run.study_case.load().simulation;
     EXPECT_EQ(settings.step, SimulationSettings{}.step) << run.name;
     EXPECT_FALSE(settings.accuracy) << run.name;
     EXPECT_EQ(settings.integrator.scheme, otherwise.scheme) << run.name;
@@ -198,9 +198,9 @@ std::string npz(const std::string& name, const std::string& header, const std::v
 
 TEST_F(ValidationRuns, OfNpzMotionsAreMeasured) {
   const ValidationCase of = validation_cases({"pattern-stiffness"}).front();
-  StudyCase what;
-  what.scene = of.scene;
-  const Vertices x = what.load().simulation.cloth.positions;
+  StudyCase study_case;
+  study_case.scene = of.scene;
+  const Vertices x = study_case.load().simulation.cloth.positions;
   std::vector<double> values;
   for (Eigen::Index i = 0; i < x.rows(); ++i) values.insert(values.end(), {x(i, 0), x(i, 1), x(i, 2)});
   const std::string shape = "{'descr': '<f8', 'fortran_order': False, 'shape': (81, 3), }";

@@ -49,25 +49,25 @@ TEST(ClosestPointCache, FindsTheVeryFootThatASearchFinds) {
     ClosestPointCache memory(40, reach);
     std::vector<Point> points(40);
     for (Point& p : points) p = Point(body.shift(body.random), body.shift(body.random), 0.2 * body.shift(body.random));
-    int feet = 0;
+    int closest_points = 0;
     for (int step = 0; step < 600; ++step) {
       const double by = 0.1 * std::pow(10.0, -(step % 5));
       if (step % 7 == 0) body.move(0.1 * by);
       for (std::size_t k = 0; k < points.size(); ++k) {
         points[k] += by * Point(body.shift(body.random), body.shift(body.random), body.shift(body.random));
         const auto plain = body.now.find(points[k], reach);
-        ClosestPoint foot;
-        const bool found = memory.find(body.now, k, points[k], foot);
+        ClosestPoint closest;
+        const bool found = memory.find(body.now, k, points[k], closest);
         ASSERT_EQ(found, plain && plain->distance < reach) << step << " " << k;
         if (!found) continue;
-        ++feet;
-        ASSERT_EQ(foot.triangle, plain->triangle) << step << " " << k;
-        ASSERT_EQ(foot.weights, plain->weights);
-        ASSERT_EQ(foot.normal, plain->normal);
-        ASSERT_EQ(foot.distance, plain->distance);
+        ++closest_points;
+        ASSERT_EQ(closest.triangle, plain->triangle) << step << " " << k;
+        ASSERT_EQ(closest.weights, plain->weights);
+        ASSERT_EQ(closest.normal, plain->normal);
+        ASSERT_EQ(closest.distance, plain->distance);
       }
     }
-    EXPECT_GT(feet, 1000);
+    EXPECT_GT(closest_points, 1000);
   }
 }
 
@@ -77,23 +77,23 @@ TEST(ClosestPointCache, DoesNotForgetWhatItHasLeftOut) {
   const Wobbling body(make_box({0.4, 0.4, 0.6}));
   std::mt19937 random(3);
   std::uniform_real_distribution<double> shift(-1, 1);
-  int feet = 0;
+  int closest_points = 0;
   for (int round = 0; round < 4000; ++round) {
     Point p(0.2 + reach * shift(random), 0.2 + reach * shift(random), 0.3 * shift(random));
     ClosestPointCache memory(1, reach);
     for (int look = 0; look < 4; ++look) {
       const auto plain = body.now.find(p, reach);
-      ClosestPoint foot;
-      const bool found = memory.find(body.now, 0, p, foot);
+      ClosestPoint closest;
+      const bool found = memory.find(body.now, 0, p, closest);
       ASSERT_EQ(found, plain && plain->distance < reach) << round;
       p += 2 * reach * Point(shift(random), shift(random), shift(random));
       if (!found) continue;
-      ++feet;
-      ASSERT_EQ(foot.triangle, plain->triangle) << round;
-      ASSERT_EQ(foot.distance, plain->distance) << round;
+      ++closest_points;
+      ASSERT_EQ(closest.triangle, plain->triangle) << round;
+      ASSERT_EQ(closest.distance, plain->distance) << round;
     }
   }
-  EXPECT_GT(feet, 1000);
+  EXPECT_GT(closest_points, 1000);
 }
 
 TEST(ClosestPointCache, KnowsACornerOfMoreTrianglesThanItKeeps) {
@@ -110,10 +110,10 @@ TEST(ClosestPointCache, KnowsACornerOfMoreTrianglesThanItKeeps) {
   for (int step = 0; step < 200; ++step) {
     const Point p = 0.05 * Point(body.shift(body.random), body.shift(body.random), 2);
     const auto plain = body.now.find(p, 0.2);
-    ClosestPoint foot;
-    ASSERT_TRUE(memory.find(body.now, 0, p, foot));
-    EXPECT_EQ(foot.triangle, plain->triangle);
-    EXPECT_EQ(foot.normal, plain->normal);
+    ClosestPoint closest;
+    ASSERT_TRUE(memory.find(body.now, 0, p, closest));
+    EXPECT_EQ(closest.triangle, plain->triangle);
+    EXPECT_EQ(closest.normal, plain->normal);
   }
 }
 

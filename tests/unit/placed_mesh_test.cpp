@@ -35,16 +35,16 @@ TEST(PlacedMesh, KnowsTheDistanceFromABoxAndTheWayOutOfIt) {
   for (int k = 0; k < 2000; ++k) {
     const Point p(place(random), place(random), place(random));
     const double expected = box_distance(half, p);
-    const auto foot = box.find(p, anywhere);
-    ASSERT_TRUE(foot);
-    EXPECT_NEAR(foot->distance, expected, 1e-12);
-    EXPECT_NEAR(foot->normal.norm(), 1, 1e-12);
+    const auto closest = box.find(p, anywhere);
+    ASSERT_TRUE(closest);
+    EXPECT_NEAR(closest->distance, expected, 1e-12);
+    EXPECT_NEAR(closest->normal.norm(), 1, 1e-12);
     // A small step along the normal increases the distance by its length.
-    EXPECT_NEAR(box_distance(half, p + 1e-6 * foot->normal), expected + 1e-6, 1e-9);
+    EXPECT_NEAR(box_distance(half, p + 1e-6 * closest->normal), expected + 1e-6, 1e-9);
     const auto near = box.find(p, 0.1);
     EXPECT_TRUE(near.has_value() || expected > 0.1);
     if (near) {
-      EXPECT_EQ(near->distance, foot->distance);
+      EXPECT_EQ(near->distance, closest->distance);
     }
   }
 }

@@ -9,7 +9,7 @@
 //   int patience = 1000;
 //   const drape::Stop stop([&patience] { return --patience == 0; });
 //   try {
-//     for (;;) stop.look();
+//     for (;;) stop.check();
 //   } catch (const drape::Interrupted&) {
 //   }
 
@@ -201,7 +201,7 @@ class Stop {
 
   /// Checks for a stop request.
   /// @throws Interrupted if a stop is requested
-  void look() const {
+  void check() const {
     if (asked_ && (*asked_)()) throw Interrupted();
   }
 

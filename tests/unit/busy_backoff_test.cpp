@@ -9,17 +9,17 @@ using namespace std::chrono_literals;
 
 /// Divides loops one after another, and counts the time lost to waiting and the time on one thread.
 struct Machine {
-  BusyBackoff turnout;
+  BusyBackoff backoff;
   BusyBackoff::Time now = 1h, lost = 0ns, alone = 0ns;
 
   /// @param taken, waited  time of every divided loop, and its waiting time
   void run(BusyBackoff::Time taken, BusyBackoff::Time waited, BusyBackoff::Time length) {
     for (const BusyBackoff::Time end = now + length; now < end; now += taken) {
-      if (turnout.active(now)) {
+      if (backoff.active(now)) {
         alone += taken;
       } else {
         lost += waited;
-        turnout.note(taken, waited, now + taken);
+        backoff.note(taken, waited, now + taken);
       }
     }
   }
@@ -41,9 +41,9 @@ TEST(BusyBackoff, LosesLittleWhereTheyDoNot) {
 TEST(BusyBackoff, TriesAgain) {
   Machine machine;
   machine.run(4ms, 3ms, 10ms);
-  EXPECT_TRUE(machine.turnout.active(machine.now));
+  EXPECT_TRUE(machine.backoff.active(machine.now));
   machine.run(30us, 1us, 1s);
-  EXPECT_FALSE(machine.turnout.active(machine.now));
+  EXPECT_FALSE(machine.backoff.active(machine.now));
   EXPECT_LT(machine.alone, 200ms);
 }
 
