@@ -144,7 +144,7 @@ class SceneStudy {
     std::vector<std::function<void(const Simulation&, const StepReport&)>> watches;
     std::vector<CaseRuns*> kept;
     const auto add = [&](const StudyCase& study_case, CaseRuns& runs, auto watch) {
-      all.push_back(what);
+      all.push_back(study_case);
       kept.push_back(&runs);
       watches.emplace_back(std::move(watch));
     };
@@ -213,7 +213,7 @@ class SceneStudy {
 }  // namespace
 
 CaseRuns::CaseRuns(const Measured& measured)
-    : what(measured.study_case),
+    : study_case(measured.study_case),
       step(measured.step),
       iterations(measured.mean_iterations()),
       capped(measured.capped),
@@ -331,7 +331,7 @@ StudyCase base_case(const std::string& file, const AccuracyOptions& options, std
 StudyCase make_case(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
   StudyCase study_case = base_case(file, options, std::move(label));
   study_case.overrides.push_back("integrator.method=" + method_name(method.method));
-  if (!is_explicit(method.method)) what.overrides.push_back("integrator.scheme=" + scheme_name(method.scheme));
+  if (!is_explicit(method.method)) study_case.overrides.push_back("integrator.scheme=" + scheme_name(method.scheme));
   return study_case;
 }
 
@@ -361,14 +361,15 @@ StudyCase by_default(const std::string& file, const AccuracyOptions& options, St
 
 /// Adds an accuracy to a case. Accuracy needs a second-order scheme, also beside fixed steps of another scheme.
 void ask(StudyCase& study_case, StepMethod method, double accuracy) {
-  if (!is_explicit(method.method)) what.overrides.push_back("integrator.scheme=" + scheme_name(TimeScheme::sdirk2));
+  if (!is_explicit(method.method))
+    study_case.overrides.push_back("integrator.scheme=" + scheme_name(TimeScheme::sdirk2));
   study_case.overrides.push_back("time.accuracy=" + plain_number(accuracy));
 }
 
 /// Returns a case that fails only if the method cannot compute the scene with any step.
 StudyCase easiest_case(const std::string& file, const AccuracyOptions& options, StepMethod method) {
   StudyCase study_case = by_default(file, options, method, "");
-  ask(what, method, 1);  // so that no step is rejected for its length
+  ask(study_case, method, 1);  // so that no step is rejected for its length
   return study_case;
 }
 
@@ -377,10 +378,10 @@ void add_tolerance_cases(AccuracyCases& cases, const Scene& scene, const std::st
   for (const double tolerance : options.tolerances) {
     StudyCase study_case =
         make_case(file, options, method, fmt::format("{}, ε = {:g}", step_method_name(method), tolerance));
-    add_tolerance(what, tolerance);
+    add_tolerance(study_case, tolerance);
     study_case.steps = steps_until(options.times.back(), scene.simulation.step);
     study_case.watched_steps = scene.step_count();
-    cases.tolerances.push_back({method, tolerance, std::move(what)});
+    cases.tolerances.push_back({method, tolerance, std::move(study_case)});
   }
 }
 
@@ -391,10 +392,10 @@ void add_step_case(AccuracyCases& cases, const std::string& file, const Accuracy
   study_case.overrides.push_back("time.step=" + plain_number(step));
   if (!is_explicit(method.method)) {
     study_case.overrides.emplace_back("integrator.stop=change");
-    add_tolerance(what, small_tolerance);
+    add_tolerance(study_case, small_tolerance);
   }
   study_case.steps = steps_until(options.times.front(), step);
-  cases.steps.push_back({method, step, std::move(what)});
+  cases.steps.push_back({method, step, std::move(study_case)});
 }
 
 void add_fixed_case(AccuracyCases& cases, const std::string& file, const AccuracyOptions& options, StepMethod method,
@@ -404,17 +405,17 @@ void add_fixed_case(AccuracyCases& cases, const std::string& file, const Accurac
   study_case.overrides.push_back("time.step=" + plain_number(step));
   study_case.steps = steps_until(options.times.front(), step);
   study_case.watched_steps = steps_until(options.times.back(), step);
-  cases.fixed.push_back({method, step, std::move(what)});
+  cases.fixed.push_back({method, step, std::move(study_case)});
 }
 
 void add_asked_case(AccuracyCases& cases, const Scene& scene, const std::string& file, const AccuracyOptions& options,
                     StepMethod method, double accuracy) {
   StudyCase study_case =
       by_default(file, options, method, fmt::format("{}, accuracy = {:g} m", step_method_name(method), accuracy));
-  ask(what, method, accuracy);
+  ask(study_case, method, accuracy);
   study_case.steps = steps_until(options.times.front(), scene.simulation.step);
   study_case.watched_steps = steps_until(options.times.back(), scene.simulation.step);
-  cases.asked.push_back({method, accuracy, std::move(what)});
+  cases.asked.push_back({method, accuracy, std::move(study_case)});
 }
 
 }  // namespace

@@ -198,7 +198,7 @@ class CaseRun {
     }
   }
 
-  /// Ends the run. It is a failure only before what.steps; later steps are just watched.
+  /// Ends the run. It is a failure only before study_case.steps; later steps are just watched.
   void give_up(const std::string& why) {
     given_up_ = true;
     if (simulation_->state().step < measured_.study_case.steps) measured_.failure = why;

@@ -88,15 +88,15 @@ struct Measured {
   StudyCase study_case;
   double step = 0;                   ///< step length h [s]
   std::vector<int> iterations;       ///< iterations of every watched step
-  std::int64_t capped = 0;           ///< number of steps within what.steps that reached the iteration limit
+  std::int64_t capped = 0;           ///< number of steps within study_case.steps that reached the iteration limit
   std::vector<double> height;        ///< height of the centre of mass after every watched step [m]
   double flipped_pairs = 0;          ///< mean over the watched steps, see FlippedPairs
   std::vector<double> microseconds;  ///< mean CPU time per step, for every timed run
   std::vector<double> setup;         ///< CPU time before the first step, with factorisation, for every timed run [µs]
-  /// Reason why the run ended before what.steps; empty: complete. Only for cases with `patience`.
+  /// Reason why the run ended before study_case.steps; empty: complete. Only for cases with `patience`.
   std::string failure;
 
-  /// Returns the mean over what.steps.
+  /// Returns the mean over study_case.steps.
   [[nodiscard]] double mean_iterations() const;
   /// Returns the mean over steps first … last−1.
   [[nodiscard]] double mean_iterations(std::size_t first, std::size_t last) const;

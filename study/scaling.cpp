@@ -68,7 +68,7 @@ class MethodOnGrid {
   }
 
   /// Measures iterations, memory and time shares in an untimed run.
-  void look() {
+  void measure_once() {
     const double before = heap();
     simulation_ = std::make_unique<Simulation>(settings_);
     point_.iterations = run(*simulation_) / timed_steps;
@@ -169,7 +169,7 @@ bool measure_grid(int cells, const std::stop_token& stop, Progress& progress, Sc
     for (const Variant& variant : variants()) {
       try {
         auto one = std::make_unique<MethodOnGrid>(variant, cells, start, time);
-        one->check();
+        one->measure_once();
         methods.push_back(std::move(one));
       } catch (const UsageError& error) {
         study.notes.push_back(fmt::format("{}, {}×{}: {}", variant.name, cells, cells, error.what()));
