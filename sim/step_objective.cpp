@@ -107,7 +107,8 @@ double StepObjective::inertial_value(const Vertices& x) const {
 }
 
 double StepObjective::rounding(double value) const {
-  return units * unit * (value + std::sqrt(2 * value * scale_)) + unit * cancelling_;
+  const double size = std::abs(value);  // rounding makes the bending energy of flat cloth slightly negative
+  return units * unit * (size + std::sqrt(2 * size * scale_)) + unit * cancelling_;
 }
 
 double StepObjective::least_elastic(double energy, double distance) const {
