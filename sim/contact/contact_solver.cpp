@@ -26,6 +26,8 @@ constexpr double linear_tolerance = 0.05;     // of conjugate gradients, in the 
 constexpr int most_linear_iterations = 300;
 constexpr double least_held = 0.1;       // fraction of κ from which a direction counts as constrained
 constexpr double worth_an_update = 0.5;  // largest move, as a fraction of the slack, at which multipliers change
+constexpr std::size_t depth = 3;         // of the acceleration of multipliers
+constexpr int plain_updates = 2;         // before it begins, since most steps need no more
 constexpr double fast = 0.5;             // gradient norm ratio of iterations above which the full Hessian is used
 constexpr double least_damping = 1.0 / 256, damping_growth = 4;
 constexpr int most_halvings = 40, most_rounds = 50;
@@ -42,6 +44,7 @@ ContactSolver::ContactSolver(const System& system)
     : system_(system),
       preconditioner_(system.cloth.vertex_count()),
       inverse_masses_(inverse_masses(system.cloth)),
+      acceleration_(depth),
       gradient_(Vertices::Zero(system.cloth.vertex_count(), 3)),
       direction_(gradient_),
       residual_(gradient_),
@@ -364,6 +367,8 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
   concavity_ = damping_ = 0;
   exact_ = problem.exact();
   problem.forget_contacts();
+  acceleration_.restart();
+  updates_ = 0;
   for (;; ++report.iterations) {
     problem.linearise(point.x, 0, damping_);
     set_stiffness(problem);
@@ -373,7 +378,7 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     const double usual = accuracy.usual || by_gradient ? std::max(share_of_change * longest(point.x - steady_),
                                                                   share_of_way * longest(point.x - start_))
                                                        : 0;
-    const double tolerance = by_gradient ? usual : std::max(accuracy.tolerance, usual);
+    const double tolerance = tolerance_ = by_gradient ? usual : std::max(accuracy.tolerance, usual);
     const bool at_a_change = problem.exact() || accuracy.rule == StoppingRule::change;
     const bool balanced = by_gradient ? norm(system_.threads, gradient_) <= accuracy.tolerance
                                       : now.error <= tolerance || (settled && at_a_change);
@@ -391,9 +396,8 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     if (problem.exact()) moved = step;
     settled = step <= tolerance;
     updated = step <= std::max(tolerance, worth_an_update * slack(point.x));
-    if (updated) {
-      for (ContactConstraint& contact : contacts_) contact.force = respond(contact, point.x).force;
-    }
+    // The point is no minimum for multipliers that are extrapolated.
+    if (updated && update_multipliers(point.x)) settled = false;
     find(point.x, updated);
   }
   retreat(problem, point);
@@ -405,6 +409,34 @@ double ContactSolver::slack(const Vertices& x) const {
   double most = 0;
   for (const ContactConstraint& contact : contacts_) most = std::max(most, respond(contact, x).residual);
   return most;
+}
+
+bool ContactSolver::update_multipliers(const Vertices& x) {
+  std::vector<Index> bearing;
+  std::vector<ContactKey> keys;
+  for (Index k = 0; k < contacts_.size(); ++k) {
+    responses_[k] = respond(contacts_[k], x);
+    if (responses_[k].force.isZero(0) && contacts_[k].force.isZero(0)) continue;
+    bearing.push_back(k);
+    keys.push_back(contacts_[k].key);
+  }
+  Eigen::Matrix3Xd before(3, std::ssize(bearing)), forces = before, weights = before;
+  for (Eigen::Index i = 0; i < forces.cols(); ++i) {
+    const Index k = bearing[static_cast<Index>(i)];
+    before.col(i) = contacts_[k].force;
+    forces.col(i) = responses_[k].force;
+    weights.col(i).setConstant(1 / contacts_[k].stiffness);
+  }
+  if (keys != bearing_) acceleration_.restart();
+  bearing_ = std::move(keys);
+  const Eigen::VectorXd next = acceleration_.next(before.reshaped(), forces.reshaped(), weights.reshaped());
+  const bool accelerated = exact_ && ++updates_ > plain_updates && next != forces.reshaped();
+  for (Index i = 0; i < bearing.size(); ++i) {
+    ContactConstraint& contact = contacts_[bearing[i]];
+    const Eigen::Vector3d force = next.segment<3>(3 * static_cast<Eigen::Index>(i));
+    contact.force = !accelerated ? responses_[bearing[i]].force : contact.welds ? force : bearable(contact, force);
+  }
+  return accelerated;
 }
 
 void ContactSolver::move_with_obstacles(Vertices& x) {

@@ -4,6 +4,7 @@
 
 #include "sim/contact/contact.hpp"
 #include "sim/contact/contact_problem.hpp"
+#include "sim/solvers/anderson.hpp"
 #include "sim/solvers/minimiser.hpp"
 
 namespace drape {
@@ -16,9 +17,10 @@ namespace drape {
 /// Each iteration takes a Newton step with line search on the augmented function
 ///   g(x) + Σ (max(0, n·t)² − (n·r)²)/2κ + friction's part.
 /// When steps become small beside the remaining gaps and slips, multipliers are set to r = f and radii to µ·(n·f);
-/// normals follow the cloth. At the solution r = f: contacts that bear a force are closed and sticking ones have not
-/// slipped, within the tolerance. Contacts are added once an iteration brings features near or makes them collide on
-/// the straight path of the step.
+/// normals follow the cloth. Friction makes these updates circle around the solution; while the same contacts bear
+/// forces, Anderson acceleration ends that. At the solution r = f: contacts that bear a force are closed and sticking
+/// ones have not slipped, within the tolerance. Contacts are added once an iteration brings features near or makes them
+/// collide on the straight path of the step.
 ///
 /// A hard contact takes energy from the cloth and stores none. EnergyBooks checks steps that stop early.
 class ContactSolver {
@@ -78,6 +80,8 @@ class ContactSolver {
   [[nodiscard]] const Vertices& residual() const { return gradient_; }
   /// Returns the estimated distance of the worst vertex from the minimum in the last solve [m].
   [[nodiscard]] double error() const { return error_; }
+  /// Returns the tolerance of the last solve for vertices [m].
+  [[nodiscard]] double tolerance() const { return tolerance_; }
 
  private:
   /// Force and stiffness of a contact at x.
@@ -109,6 +113,9 @@ class ContactSolver {
   PointStatus assess(const ContactProblem& problem, const Iterate& point);
   /// Returns the work of a force that separates features which began too near, if their source does [J].
   [[nodiscard]] double separating_work(const ContactConstraint& contact, const Eigen::Vector3d& force) const;
+  /// Sets the multipliers to the forces at x. Returns true if it set them to a combination of these and of earlier ones
+  /// instead, see AndersonAcceleration; only Newton's Hessian solves well enough between updates for that.
+  bool update_multipliers(const Vertices& x);
   /// Returns the largest residual of a contact at x [m].
   [[nodiscard]] double slack(const Vertices& x) const;
 
@@ -134,10 +141,14 @@ class ContactSolver {
   double longest_move_ = 0;             // limit of a vertex's move in an iteration: the mean edge length [m]
   double damping_ = 0;                  // added to the Hessian, as a fraction of its bound
   double error_ = 0;                    // estimated, of the last solve [m]
+  double tolerance_ = 0;                // of the last solve [m]
   double concavity_ = 0;                // share of the Hessian's negative eigenvalues
   bool exact_ = false;                  // true if the last solve was of Newton's Hessian
   std::vector<ContactConstraint> contacts_, before_, held_;
   std::vector<Response> responses_;
+  AndersonAcceleration acceleration_;  // of the multipliers
+  std::vector<ContactKey> bearing_;    // contacts of its last update
+  int updates_ = 0;                    // of the multipliers, in the step
   FreeFlight flight_;
   Vertices start_, steady_;  // positions at the start of the step, and at its end for constant velocities
   Vertices gradient_, direction_, residual_, preconditioned_, search_, product_;

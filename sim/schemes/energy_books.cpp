@@ -93,9 +93,10 @@ bool EnergyBooks::gains(const Iterate& point, bool tolerant) {
   return too_much();
 }
 
-bool EnergyBooks::gains_in_contact(const Iterate& point, double work) {
+bool EnergyBooks::gains_in_contact(const Iterate& point, double work, double tolerance) {
   if (!start_exact_) evaluate_start();
-  return gain(point) - work > rounding(point) + noticed * start_kinetic_;
+  const double solved = 0.5 * tolerance * tolerance * objective_.free_inertia().sum();
+  return gain(point) - work > rounding(point) + noticed * start_kinetic_ + solved;
 }
 
 void EnergyBooks::evaluate_start() {

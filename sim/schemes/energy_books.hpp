@@ -29,8 +29,10 @@ class EnergyBooks {
   /// @param state must not change until the step ends
   /// @param last_end positions passed to end() for the last step
   void begin(const State& state, const Vertices& last_end);
-  /// Returns true if ΔK + ΔE − W at the point, minus the work of the contacts [J], exceeds rounding.
-  [[nodiscard]] bool gains_in_contact(const Iterate& point, double work);
+  /// Returns true if ΔK + ΔE − W at the point, minus the work of the contacts, exceeds rounding and the energy of
+  /// displacements within a tolerance, ½ Σ m/h² δ². Unlike the work of the residual, this does not grow with the speed.
+  /// @param work of the contacts [J] @param tolerance δ of the solve, 0 if it is not met [m]
+  [[nodiscard]] bool gains_in_contact(const Iterate& point, double work, double tolerance);
   /// Returns true if ΔK + ΔE − W at the point exceeds rounding.
   /// @param tolerant true to subtract the tolerated gain
   [[nodiscard]] bool gains(const Iterate& point, bool tolerant);

@@ -82,7 +82,8 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   const bool held = touches && contact_->touches_obstacles();
   // The minimiser has checked a step that ended by small changes, unless it was just moved.
   const bool looked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
-  if (touches && books_.gains_in_contact(point_, contact_->work(point_.x, report.converged))) {
+  const double met = touches && report.converged ? contact_->tolerance() : 0;
+  if (touches && books_.gains_in_contact(point_, contact_->work(point_.x, report.converged), met)) {
     if (!contact_->carried()) report.kept = shed(held);
     report.converged = false;
   }
