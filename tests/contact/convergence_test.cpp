@@ -9,10 +9,7 @@ namespace drape::test {
 namespace {
 
 class Convergence : public testing::TestWithParam<NamedMethod> {};
-INSTANTIATE_TEST_SUITE_P(With, Convergence,
-                         testing::Values(contact_methods[0], contact_methods[2], contact_methods[5],
-                                         all_contact_methods[6]),
-                         method_name);
+INSTANTIATE_TEST_SUITE_P(With, Convergence, testing::Values(contact_methods[0], contact_methods[5]), method_name);
 
 /// Makes a tilted sheet close above z = 0 that falls on obstacles.
 SimulationSettings falling_sheet(const NamedMethod& method, double stiffness, double step) {
