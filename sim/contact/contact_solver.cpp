@@ -27,8 +27,8 @@ constexpr int most_linear_iterations = 300;
 constexpr double least_held = 0.1;       // fraction of κ from which a direction counts as constrained
 constexpr double worth_an_update = 0.5;  // largest move, as a fraction of the slack, at which multipliers change
 constexpr std::size_t depth = 3;         // of the acceleration of multipliers
-constexpr int plain_updates = 2;         // before it begins, since most steps need no more
-constexpr double fast = 0.5;             // gradient norm ratio of iterations above which the full Hessian is used
+constexpr int plain_updates = 6;  // before it begins: most steps need no more, and acceleration takes longer there
+constexpr double fast = 0.5;      // gradient norm ratio of iterations above which the full Hessian is used
 constexpr double least_damping = 1.0 / 256, damping_growth = 4;
 constexpr int most_halvings = 40, most_rounds = 50;
 constexpr int most_useful = 150;  // iterations; a step that needs more rarely converges

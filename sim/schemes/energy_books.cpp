@@ -95,7 +95,9 @@ bool EnergyBooks::gains(const Iterate& point, bool tolerant) {
 
 bool EnergyBooks::gains_in_contact(const Iterate& point, double work, double tolerance) {
   if (!start_exact_) evaluate_start();
-  const double solved = 0.5 * tolerance * tolerance * objective_.free_inertia().sum();
+  const Accuracy& accuracy = minimiser_.accuracy();
+  const bool given = tolerance > 0 && !accuracy.usual && accuracy.rule == StoppingRule::error;
+  const double solved = given ? tolerated(point) : 0.5 * tolerance * tolerance * objective_.free_inertia().sum();
   return gain(point) - work > rounding(point) + noticed * start_kinetic_ + solved;
 }
 

@@ -29,8 +29,9 @@ class EnergyBooks {
   /// @param state must not change until the step ends
   /// @param last_end positions passed to end() for the last step
   void begin(const State& state, const Vertices& last_end);
-  /// Returns true if ΔK + ΔE − W at the point, minus the work of the contacts, exceeds rounding and the energy of
-  /// displacements within a tolerance, ½ Σ m/h² δ². Unlike the work of the residual, this does not grow with the speed.
+  /// Returns true if ΔK + ΔE − W at the point, minus the work of the contacts, exceeds rounding and the tolerated gain.
+  /// With a given tolerance for errors, that is the work of their forces. By default it is the energy of displacements
+  /// within the tolerance, ½ Σ m/h² δ², which does not grow with the speed, as default tolerances in contact are large.
   /// @param work of the contacts [J] @param tolerance δ of the solve, 0 if it is not met [m]
   [[nodiscard]] bool gains_in_contact(const Iterate& point, double work, double tolerance);
   /// Returns true if ΔK + ΔE − W at the point exceeds rounding.
