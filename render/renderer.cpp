@@ -252,7 +252,11 @@ class Renderer::Implementation {
     }
   }
 
-  void set_weave(const Vertices& rest, const std::vector<std::array<float, 2>>& uvs) { cloth_.set_weave(rest, uvs); }
+  void set_weave(const Vertices& rest, const std::vector<std::array<float, 2>>& uvs) {
+    const auto lock = lock_gl();
+    device_->make_current();
+    cloth_.set_weave(rest, uvs);
+  }
 
   void look_from(const View& view) { view_ = view; }
 
@@ -272,8 +276,11 @@ class Renderer::Implementation {
     const Shot shot(frame, view_, static_cast<double>(size_.x()) / size_.y(), look_);
     prepare(shot, colors);
     const bool previous = std::exchange(started_, false);
-    if (previous) canvas_.read();
-    draw(shot);
+    {
+      const auto lock = lock_gl();
+      if (previous) canvas_.read();
+      draw(shot);
+    }
     started_ = true;
     const std::vector<OutlineSegment> outline = std::exchange(outline_, find_outline(shot));
     if (!previous) return std::nullopt;
@@ -282,12 +289,16 @@ class Renderer::Implementation {
 
   std::optional<Image> finish() {
     if (!std::exchange(started_, false)) return std::nullopt;
-    device_->make_current();
-    canvas_.read();
+    {
+      const auto lock = lock_gl();
+      device_->make_current();
+      canvas_.read();
+    }
     return canvas_.compose(outline_);
   }
 
   [[nodiscard]] std::string description() const {
+    const auto lock = lock_gl();
     device_->make_current();
     const auto text = [this](GLenum name) { return reinterpret_cast<const char*>(device_->gl().GetString(name)); };
     return fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
@@ -363,13 +374,22 @@ std::span<const Rgb> checked(const std::vector<Rgb>& vertex_colors, const Frame&
 
 Renderer::Renderer(const std::filesystem::path& data_folder, Eigen::Vector2i size, const View& view, const Look& look,
                    int vertex_count, const std::vector<Triangle>& triangles,
-                   const std::vector<std::array<float, 2>>& uvs, GlBackend backend)
-    : implementation_(
-          std::make_unique<Implementation>(data_folder, size, view, look, vertex_count, triangles, uvs, backend)) {}
+                   const std::vector<std::array<float, 2>>& uvs, GlBackend backend) {
+  const auto lock = lock_gl();
+  implementation_ =
+      std::make_unique<Implementation>(data_folder, size, view, look, vertex_count, triangles, uvs, backend);
+}
 
-Renderer::~Renderer() = default;
+Renderer::~Renderer() {
+  const auto lock = lock_gl();
+  implementation_.reset();
+}
 Renderer::Renderer(Renderer&&) noexcept = default;
-Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&& other) noexcept {
+  const auto lock = lock_gl();
+  implementation_ = std::move(other.implementation_);
+  return *this;
+}
 
 void Renderer::set_weave(const Vertices& rest, const std::vector<std::array<float, 2>>& uvs) {
   implementation_->set_weave(rest, uvs);

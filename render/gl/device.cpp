@@ -61,15 +61,26 @@ std::unique_ptr<GlContext> make_current_context(GlBackend backend) {
 
 }  // namespace
 
+std::unique_lock<std::recursive_mutex> lock_gl() {
+  static auto* const mutex = new std::recursive_mutex;  // as the idle devices, never destroyed
+  return std::unique_lock(*mutex);
+}
+
 GlDevice::GlDevice(std::filesystem::path data_folder, GlBackend backend)
     : data_folder_(std::move(data_folder)),
       backend_(backend),
       context_(make_current_context(backend)),
       gl_(*context_) {}
 
+void GlDevice::make_current() {
+  const auto lock = lock_gl();
+  context_->make_current();
+}
+
 const Program& GlDevice::program(const std::string& name, const std::vector<std::string>& defines) {
   const auto found = programs_.find({name, defines});
   if (found != programs_.end()) return found->second;
+  const auto lock = lock_gl();
   return programs_
       .emplace(std::piecewise_construct, std::forward_as_tuple(name, defines),
                std::forward_as_tuple(gl_, data_folder_, name, defines))
@@ -78,6 +89,7 @@ const Program& GlDevice::program(const std::string& name, const std::vector<std:
 
 void GiveBack::operator()(GlDevice* device) const noexcept {
   std::unique_ptr<GlDevice> given(device);
+  const auto lock = lock_gl();
   try {
     given->make_current();
     // Mesa's threads may still draw pictures that nobody has read. A process that ends meanwhile would wait for them
@@ -93,6 +105,7 @@ void GiveBack::operator()(GlDevice* device) const noexcept {
 
 BorrowedDevice borrow_device(const std::filesystem::path& data_folder, GlBackend backend) {
   require_own_mesa();
+  const auto lock = lock_gl();
   BorrowedDevice device(idle().take(data_folder, backend).release());
   if (!device) return BorrowedDevice(std::make_unique<GlDevice>(data_folder, backend).release());
   device->make_current();

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,7 +29,7 @@ class GlDevice {
 
   /// Directs the GL calls of the calling thread to this device.
   /// @throws OutputError if the library refuses
-  void make_current() { context_->make_current(); }
+  void make_current();
   /// Detaches the device, which must be current, so that any thread may use it.
   void release() { context_->release(); }
 
@@ -45,6 +46,11 @@ class GlDevice {
   GlFunctions gl_;
   std::map<std::pair<std::string, std::vector<std::string>>, Program> programs_;
 };
+
+/// Returns a lock that each thread holds while it calls functions of any device. Mesa's llvmpipe searches the scenes of
+/// all contexts without locking them (llvmpipe_flush_resource in Mesa 22.3), so that contexts which draw at once crash.
+/// Its own threads draw on meanwhile. A thread may hold several.
+[[nodiscard]] std::unique_lock<std::recursive_mutex> lock_gl();
 
 /// Returns a device to the pool, unless it has an error.
 struct GiveBack {
