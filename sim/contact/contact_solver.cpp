@@ -420,6 +420,7 @@ bool ContactSolver::update_multipliers(const Vertices& x) {
     bearing.push_back(k);
     keys.push_back(contacts_[k].key);
   }
+  if (bearing.empty()) return false;
   Eigen::Matrix3Xd before(3, std::ssize(bearing)), forces = before, weights = before;
   for (Eigen::Index i = 0; i < forces.cols(); ++i) {
     const Index k = bearing[static_cast<Index>(i)];
