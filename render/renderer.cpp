@@ -252,11 +252,7 @@ class Renderer::Implementation {
     }
   }
 
-  void set_weave(const Vertices& rest, const std::vector<std::array<float, 2>>& uvs) {
-    const auto lock = lock_gl();
-    device_->make_current();
-    cloth_.set_weave(rest, uvs);
-  }
+  void set_weave(const Vertices& rest, const std::vector<std::array<float, 2>>& uvs) { cloth_.set_weave(rest, uvs); }
 
   void look_from(const View& view) { view_ = view; }
 

@@ -326,7 +326,7 @@ double ContactSolver::descend(ContactProblem& problem, Iterate& point, double va
     trial_.value = problem.evaluate(trial_.x, trial_.gradient);
     double after = trial_.value;
     for (const ContactConstraint& contact : contacts_) after += respond(contact, trial_.x).energy;
-    if (after <= value - sufficient_decrease * length * slope + problem.rounding(std::abs(value))) {
+    if (after <= value - sufficient_decrease * length * slope + problem.rounding(value)) {
       std::swap(point, trial_);
       return length;
     }
@@ -430,8 +430,9 @@ bool ContactSolver::update_multipliers(const Vertices& x) {
   }
   if (keys != bearing_) acceleration_.restart();
   bearing_ = std::move(keys);
-  const Eigen::VectorXd next = acceleration_.next(before.reshaped(), forces.reshaped(), weights.reshaped());
-  const bool accelerated = exact_ && ++updates_ > plain_updates && next != forces.reshaped();
+  Eigen::VectorXd next = forces.reshaped();
+  if (exact_) next = acceleration_.next(before.reshaped(), next, weights.reshaped());
+  const bool accelerated = ++updates_ > plain_updates && next != forces.reshaped();
   for (Index i = 0; i < bearing.size(); ++i) {
     ContactConstraint& contact = contacts_[bearing[i]];
     const Eigen::Vector3d force = next.segment<3>(3 * static_cast<Eigen::Index>(i));

@@ -240,8 +240,8 @@ bool NewtonCholesky::factorize_positive() {
   // Wright 2006, algorithm 3.3).
   double largest = 0;
   for (const int start : column_starts_) largest = std::max(largest, values_[Index(start)]);
-  const auto look = [this] { system_.stop.check(); };
-  for (double shift = first_shift * largest; !factor_->factorize(values_.data(), look); shift *= 10) {
+  const auto check_stop = [this] { system_.stop.check(); };
+  for (double shift = first_shift * largest; !factor_->factorize(values_.data(), check_stop); shift *= 10) {
     if (!(shift <= largest)) return false;
     for (const int start : column_starts_) values_[Index(start)] += shift;
   }

@@ -65,9 +65,6 @@ TEST_P(FreeMotion, FallsAsTheSumOfItsStepsSays) {
   EXPECT_LT((simulation.state().v.rowwise() - velocity).cwiseAbs().maxCoeff(), rounding / h);
 }
 
-// Springs pull with opposite forces. Even if a step stops early and solves coarsely (factors are in single precision),
-// the momentum changes only by rounding: of positions of about 1 m, whose differences over h are the velocities of
-// implicit methods.
 class SolvedMotion : public FreeMotion {};
 INSTANTIATE_TEST_SUITE_P(With, SolvedMotion, testing::ValuesIn(implicit_methods), method_name);
 INSTANTIATE_TEST_SUITE_P(WithSdirk2, SolvedMotion, testing::ValuesIn(sdirk2_methods), method_name);
@@ -93,6 +90,9 @@ TEST_P(SolvedMotion, SolvesEveryStepOfAFallingFabric) {
   }
 }
 
+// Springs pull with opposite forces. Even if a step stops early and solves coarsely (factors are in single precision),
+// the momentum changes only by rounding: of positions of about 1 m, whose differences over h are the velocities of
+// implicit methods.
 TEST_P(FreeMotion, KeepsItsMomentumHoweverLooselyItIsSolvedFor) {
   constexpr int steps = 50;
   const double h = GetParam().is_explicit() ? 0.001 : 0.02;
