@@ -48,7 +48,7 @@ bool System::only_loses_energy() const {
   return push.isApprox(cloth.masses * gravity.transpose());
 }
 
-void System::filter(State& state, Vertices& way) const {
+bool System::filter(State& state, Vertices& way) const {
   for (const auto& filter : filters) {
     filter->apply(state.x, time(state.step), step, way);
   }
@@ -57,9 +57,9 @@ void System::filter(State& state, Vertices& way) const {
     changed = false;
     for (const auto& filter : filters) changed = filter->adjust(state.x, time(state.step), step, way) || changed;
   }
-  bool first = true;
+  bool first = true, converged = !changed;
   for (const auto& filter : filters) {
-    filter->note(!changed);
+    converged = converged && filter->done();
     const Restraint* restraint = filter->restraint();
     if (restraint == nullptr) continue;
     if (std::exchange(first, false)) {
@@ -69,38 +69,43 @@ void System::filter(State& state, Vertices& way) const {
       state.restraint.tensions += restraint->tensions;
     }
   }
+  return converged;
 }
 
-void System::move(State& state, const Vertices* reached) const {
-  if (filters.empty() && reached != nullptr) {
-    copy(threads, *reached, state.x);
-    return;
-  }
-  filter(state, state.v);
+double System::tolerated_gain() const {
+  double sum = 0;
+  for (const auto& filter : filters) sum += filter->tolerated_gain();
+  return sum;
+}
+
+bool System::move(State& state) const {
+  const bool converged = filter(state, state.v);
   add_multiple(threads, step, state.v, state.x);
   place_pins(time(state.step + 1), state.x);
   for (const auto& filter : filters) filter->finish(state.v);
+  return converged;
 }
 
-void System::move(State& state, const Vertices& reached, Vertices& way) const {
+bool System::move(State& state, const Vertices& reached, Vertices& way) const {
   if (filters.empty()) {
     state.x = reached;
-    return;
+    return true;
   }
   way = (reached - state.x) / step;
   state.v -= way;
-  filter(state, way);
+  const bool converged = filter(state, way);
   state.v += way;
   add_multiple(threads, step, way, state.x);
   place_pins(time(state.step + 1), state.x);
   for (const auto& filter : filters) filter->finish(state.v);
+  return converged;
 }
 
 namespace {
 
 /// Sizes of a system's lists at one moment.
 struct SystemSizes {
-  std::size_t forces, fields, energies, dashpots, corrections, filters, contacts;
+  std::size_t forces, fields, energies, dashpots, corrections, filters, contacts, limits;
   explicit SystemSizes(const System& system)
       : forces(system.forces.size()),
         fields(system.fields.size()),
@@ -108,7 +113,8 @@ struct SystemSizes {
         dashpots(system.dashpots.size()),
         corrections(system.corrections.size()),
         filters(system.filters.size()),
-        contacts(system.contacts.size()) {}
+        contacts(system.contacts.size()),
+        limits(system.limits.size()) {}
 };
 
 /// Timer that adds its lifetime to a number of seconds.
@@ -217,6 +223,7 @@ struct TimedFilter final : Timed<MotionFilter> {
     inner->finish(v);
   }
   [[nodiscard]] const Restraint* restraint() const override { return inner->restraint(); }
+  [[nodiscard]] double tolerated_gain() const override { return inner->tolerated_gain(); }
   [[nodiscard]] bool done() const override { return inner->done(); }
 };
 
@@ -249,6 +256,7 @@ void time_additions(System& system, const SystemSizes& before, double& seconds) 
   wrap<TimedCorrection>(system.corrections, before.corrections, seconds);
   wrap<TimedFilter>(system.filters, before.filters, seconds);
   wrap<TimedContacts>(system.contacts, before.contacts, seconds);
+  wrap<TimedContacts>(system.limits, before.limits, seconds);
 }
 
 /// Adds the energy for velocity fields in implicit steps.
@@ -284,13 +292,12 @@ void install_effects(const SimulationSettings& settings, std::vector<double>* ef
   add_drag(settings.integrator, system);
   add_dissipations(settings.integrator, system);
   if (!system.cloth.seams.empty()) system.contacts.push_back(std::make_shared<SeamContacts>(system.cloth));
+  if (!is_explicit(settings.integrator.method)) return;
+  system.limits.clear();
   if (system.contacts.empty()) return;
-  // Explicit steps have no other contact. Implicit steps need this filter to keep their contacts after other filters.
-  const bool explicitly = is_explicit(settings.integrator.method);
-  if (!explicitly && system.filters.empty()) return;
   system.filters.push_back(std::make_unique<ImpulseContact>(system));
   system.filters.back()->set_stop(stop);
-  if (explicitly) system.contacts.clear();
+  system.contacts.clear();
 }
 
 }  // namespace

@@ -137,12 +137,10 @@ struct MotionFilter {
   virtual void finish(Vertices& /*v*/) {}
   /// Returns the restraint of the last call, if the next step can expect the same.
   [[nodiscard]] virtual const Restraint* restraint() const { return nullptr; }
+  /// Returns the work of the last call's impulses along the violations that it accepts [J].
+  [[nodiscard]] virtual double tolerated_gain() const { return 0; }
   /// Returns true if the last call converged before its iteration limit.
   [[nodiscard]] virtual bool done() const { return true; }
-  /// Returns true if it converged and no other filter has undone it since.
-  [[nodiscard]] bool converged() const { return settled_ && done(); }
-  /// Records if the filters of the step have converged together.
-  void note(bool settled) { settled_ = settled; }
 
   /// Sets the stop request that the loops of apply() check.
   void set_stop(const Stop& stop) { stop_ = stop; }
@@ -153,7 +151,6 @@ struct MotionFilter {
 
  private:
   Stop stop_;
-  bool settled_ = true;
 };
 
 /// An obstacle whose position is a function of time.
@@ -189,6 +186,7 @@ struct System {
   std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
   std::vector<std::shared_ptr<ContactSource>> contacts;  ///< everything that the cloth can touch
+  std::vector<std::shared_ptr<ContactSource>> limits;    ///< on strain, for implicit steps that cannot use the filters
   std::vector<PinMotion> pin_motions;                    ///< of pins that move
   std::vector<PinRelease> pin_releases;  ///< at each release, a simulation makes a new system without these pins
   std::vector<CurvatureElement> bending_elements;   ///< of all bending energies, for dashpots
@@ -232,13 +230,19 @@ struct System {
     for (const PinMotion& motion : pin_motions) motion.place(at, x);
   }
 
+  /// Lets every filter change the velocities of the move from state.x, n×3 [m/s], and records the restraint in the
+  /// state. Returns false if they have not converged together.
+  bool filter(State& state, Vertices& way) const;
+
+  /// Returns the energy that the last call of filter() may have added within the tolerances of the filters [J].
+  [[nodiscard]] double tolerated_gain() const;
+
   // End of a step of Euler schemes, whose velocities are mean velocities of the step. Explicit ones correct velocities
   // before the move, implicit ones after it.
 
   /// Moves the cloth to the end of the step that begins at state.step: lets every filter change the velocities, then
-  /// adds h·v to x. Records the restraint.
-  /// @param reached if given, the exact final positions without filters
-  void move(State& state, const Vertices* reached) const;
+  /// adds h·v to x. Returns false if the filters have not converged.
+  bool move(State& state) const;
 
   /// Applies every correction to the velocities of that step, and sets those of moving pins.
   void correct(State& state) const {
@@ -261,9 +265,10 @@ struct System {
   }
 
   /// Moves the cloth to its computed positions at the end of the step that begins at state.step. Changes that filters
-  /// make to the mean velocities, (reached − x)/h, are added to state.v. Records the restraint.
+  /// make to the mean velocities, (reached − x)/h, are added to state.v. Returns false if the filters have not
+  /// converged.
   /// @param way scratch, n×3
-  void move(State& state, const Vertices& reached, Vertices& way) const;
+  bool move(State& state, const Vertices& reached, Vertices& way) const;
 
   /// Sets the velocities of moving pins at a time [s].
   void drive_pins(double at, Vertices& v) const {
@@ -271,9 +276,6 @@ struct System {
   }
 
  private:
-  /// Lets every filter change the velocities of the move from state.x, and records the restraint in the state.
-  void filter(State& state, Vertices& way) const;
-
   mutable std::unique_ptr<const SpringNetwork> network_;
 };
 

@@ -25,12 +25,19 @@ struct ContactKey {
   auto operator<=>(const ContactKey&) const = default;  // NOLINT(modernize-use-nullptr): it takes <=> for a 0
 };
 
+/// Condition on the relative position d of two features at the end of a step.
+enum class ContactLaw : unsigned char {
+  apart,   ///< n·d ≥ distance, with friction and restitution
+  length,  ///< |d| ≤ −distance if `distance` is negative, else |d| ≥ distance
+};
+
 /// Two features that must stay a distance apart; one or both belong to the cloth. With the relative position
 ///   d(x) = Σ weights[i]·x[vertices[i]] + offset
-/// the contact is the constraint n·d(x) ≥ distance, linear in x. Its force acts on the cloth as weights[i]·force. A
-/// rope of a seam is such a constraint with a negative distance, and a closed seam one on all of d.
+/// the contact is the constraint n·d(x) ≥ distance, linear in x, or another ContactLaw. Its force acts on the cloth as
+/// weights[i]·force. A rope of a seam is such a constraint with a negative distance, and a closed seam one on all of d.
 struct ContactConstraint {
   ContactKey key;
+  ContactLaw law = ContactLaw::apart;
   int count = 1;                                      ///< number of cloth vertices, 1 to 4
   std::array<int, 4> vertices = {};                   ///< cloth vertices
   std::array<double, 4> weights = {};                 ///< weights of these vertices
@@ -47,9 +54,13 @@ struct ContactConstraint {
   bool collides = false;   ///< true if the features pass through each other on straight paths
   bool sews = false;       ///< true for a tie of a seam: a rope, or a weld
   bool welds = false;      ///< true: d(x) = 0 instead, at the end of the step and in every direction
-  double radius = -1;      ///< limit of the friction force, µ times a normal force [N]; negative: unknown
-  double stiffness = 0;    ///< penalty κ of the augmented Lagrangian [N/m]
+  /// Largest gap of a solved length [m].
+  double most_open = std::numeric_limits<double>::infinity();
+  double radius = -1;    ///< limit of the friction force, µ times a normal force [N]; negative: unknown
+  double stiffness = 0;  ///< penalty κ of the augmented Lagrangian [N/m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< multiplier: the force on d [N]
+
+  static constexpr double most_open_weld = 4e-7;  ///< largest gap of a weld that counts as closed [m]
 
   /// Returns Σ weights·x over the cloth's vertices [m].
   [[nodiscard]] Eigen::Vector3d gather(const Vertices& x) const {
@@ -74,6 +85,11 @@ struct ContactConstraint {
       if (inverse_masses[static_cast<std::size_t>(vertices[i])] != 0) moved += std::abs(weights[i]);
     }
     return moved > 0 && moved >= least_free * all;
+  }
+  /// Returns true if features of the cloth alone that cannot move violate the contact at the end of a step: they pass
+  /// through each other, or a weld is open.
+  [[nodiscard]] bool is_lost(const Vertices& target) const {
+    return !with_obstacle() && (welds ? place(target).norm() > most_open_weld : collides);
   }
   /// Returns the velocity of d per impulse on d, Σ weights²/m [1/kg].
   [[nodiscard]] double compliance(const std::vector<double>& inverse_masses) const {

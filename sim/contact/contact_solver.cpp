@@ -15,7 +15,8 @@ using Index = std::size_t;
 constexpr double relative_stiffness = 10;     // κ, in multiples of the stiffness of a contact's vertices
 constexpr double newton_stiffness = 20;       // κ with Newton's Hessian, whose factor bears more
 constexpr double weld_stiffness = 100;        // κ of a weld, likewise; it never opens
-constexpr double most_open = 4e-7;            // largest gap of a weld [m]
+constexpr double length_stiffness = 100;      // κ of an edge at its strain limit, likewise
+constexpr double length_share = 0.5;          // largest gap of a length in the solve, relative to the allowed one
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
 constexpr double shortest_move = 1e-6;        // least step length along a direction
 constexpr double share_of_change = 0.01;      // tolerance, relative to the largest displacement by forces
@@ -61,13 +62,21 @@ ContactSolver::ContactSolver(const System& system)
 
 void ContactSolver::begin(const State& from, double start, double end, bool instantaneous) {
   contacts_.clear();
+  with_limits_ = false;
   const Vertices& x = start_ = from.x;
   flight_.h = end - start;
   flight_.gravity = system_.gravity;
   flight_.start_v = from.v;
   flight_.mean = from.v.rowwise() + (instantaneous ? 0.5 : 1.0) * flight_.h * system_.gravity.transpose();
   flight_.target = x + flight_.h * flight_.mean;
-  for (const auto& source : system_.contacts) source->begin(start_, start, end);
+  for (const auto* sources : {&system_.contacts, &system_.limits}) {
+    for (const auto& source : *sources) source->begin(start_, start, end);
+  }
+}
+
+ContactSource& ContactSolver::source(int number) const {
+  const auto k = static_cast<Index>(number), others = system_.contacts.size();
+  return k < others ? *system_.contacts[k] : *system_.limits[k - others];
 }
 
 void ContactSolver::expect(const std::vector<ContactForce>& forces) {
@@ -83,13 +92,17 @@ void ContactSolver::expect(const std::vector<ContactForce>& forces) {
 
 std::vector<ContactForce> ContactSolver::forces() const {
   std::vector<ContactForce> forces;
-  if (!exact_) return forces;
   for (const ContactConstraint& contact : contacts_) {
-    const double gap = contact.start.dot(contact.normal);
-    if (contact.welds || contact.friction <= 0 || gap >= (1 + begins_on) * contact.distance) continue;
-    if (contact.force.isZero(0)) continue;
     const auto& [a, b, c, d] = contact.key.features;
-    forces.push_back({{contact.key.source, contact.key.kind, a, b, c, d}, contact.force});
+    const ContactForce force{{contact.key.source, contact.key.kind, a, b, c, d}, contact.force};
+    if (contact.force.isZero(0)) continue;
+    if (contact.law == ContactLaw::length) {
+      forces.push_back(force);
+      continue;
+    }
+    const double gap = contact.start.dot(contact.normal);
+    if (!exact_ || contact.welds || contact.friction <= 0 || gap >= (1 + begins_on) * contact.distance) continue;
+    forces.push_back(force);
   }
   return forces;
 }
@@ -114,6 +127,7 @@ bool ContactSolver::touches(const Vertices& target) {
 bool ContactSolver::is_blocked(const Vertices& target) {
   find(target, true);
   return std::ranges::any_of(contacts_, [&](const ContactConstraint& contact) {
+    if (contact.law == ContactLaw::length) return false;
     const double lies = (1 + begins_on) * contact.distance;
     return contact.collides || contact.welds || contact.place(target).dot(contact.normal) < contact.distance ||
            contact.start.dot(contact.normal) < lies;
@@ -133,15 +147,22 @@ void ContactSolver::find(const Vertices& target, bool turn) {
   if (!target.allFinite()) return;
   before_.swap(contacts_);
   contacts_.clear();
+  lost_ = false;
   auto from = before_.begin();
-  for (int source = 0; source < static_cast<int>(system_.contacts.size()); ++source) {
+  const auto others = static_cast<int>(system_.contacts.size()), limits = static_cast<int>(system_.limits.size());
+  for (int number = 0; number < others + limits; ++number) {
+    if (number == others && contacts_.empty() && !with_limits_) break;
     held_.clear();
-    for (; from != before_.end() && from->key.source == source; ++from) {
+    for (; from != before_.end() && from->key.source == number; ++from) {
       if (!from->force.isZero(0) || from->beyond > 0) held_.push_back(*from);
     }
-    system_.contacts[static_cast<Index>(source)]->find(target, source, held_, contacts_);
+    source(number).find(target, number, held_, contacts_);
+    std::erase_if(contacts_, [&](const ContactConstraint& contact) {
+      if (contact.can_move(inverse_masses_)) return false;
+      lost_ = lost_ || contact.is_lost(target);
+      return true;
+    });
   }
-  std::erase_if(contacts_, [&](const ContactConstraint& contact) { return !contact.can_move(inverse_masses_); });
   auto known = before_.begin();
   for (ContactConstraint& contact : contacts_) {
     contact.beyond = bounce_of(contact, flight_).gap;
@@ -171,11 +192,32 @@ void ContactSolver::set_stiffness(const ContactProblem& problem) {
       if (inverse_masses_[static_cast<Index>(vertex)] == 0) continue;
       compliance += contact.weights[i] * contact.weights[i] / problem.stiffness(vertex, contact.normal);
     }
-    contact.stiffness = (contact.welds ? weld_stiffness : stiffness_ratio(problem.exact())) / compliance;
+    const double ratio = contact.welds                       ? weld_stiffness
+                         : contact.law == ContactLaw::length ? length_stiffness
+                                                             : stiffness_ratio(problem.exact());
+    contact.stiffness = ratio / compliance;
   }
 }
 
+ContactSolver::Response ContactSolver::respond_to_length(const ContactConstraint& contact, const Vertices& x) {
+  const Eigen::Vector3d place = contact.place(x);
+  const double size = place.norm(), k = contact.stiffness, before = contact.force.norm();
+  const bool pulls = contact.distance < 0;
+  const Eigen::Vector3d n = size > 0 ? Eigen::Vector3d((pulls ? -1 : 1) / size * place) : contact.normal;
+  const double force = std::max(0.0, before - k * ((pulls ? -size : size) - contact.distance));
+  Response response{.force = force * n,
+                    .stiffness = Eigen::Matrix3d::Zero(),
+                    .energy = (force * force - before * before) / (2 * k),
+                    .residual = std::abs(force - before) / k};
+  if (force == 0) return response;
+  response.stiffness = k * n * n.transpose();
+  // Across, a push has a negative stiffness, which is left out.
+  if (pulls) response.stiffness += force / size * (Eigen::Matrix3d::Identity() - n * n.transpose());
+  return response;
+}
+
 ContactSolver::Response ContactSolver::respond(const ContactConstraint& contact, const Vertices& x) const {
+  if (contact.law == ContactLaw::length) return respond_to_length(contact, x);
   const Eigen::Vector3d& n = contact.normal;
   const Eigen::Vector3d place = contact.place(x), slip = place - contact.start;
   const double k = contact.stiffness, before = contact.force.dot(n), radius = contact.radius;
@@ -229,8 +271,13 @@ ContactSolver::PointStatus ContactSolver::assess(const ContactProblem& problem, 
     responses_[k] = respond(contacts_[k], point.x);
     contacts_[k].scatter(-responses_[k].force, gradient_);
     now.value += responses_[k].energy;
-    now.residual = std::max(now.residual, responses_[k].residual);
-    if (contacts_[k].welds) now.open = std::max(now.open, responses_[k].residual);
+    const double residual = responses_[k].residual;
+    if (contacts_[k].law == ContactLaw::length) {
+      now.open = std::max(now.open, residual / (length_share * contacts_[k].most_open));
+    } else {
+      now.residual = std::max(now.residual, residual);
+      if (contacts_[k].welds) now.open = std::max(now.open, residual / ContactConstraint::most_open_weld);
+    }
     now.collides = now.collides || contacts_[k].collides;
   }
   for (const int pin : system_.cloth.pins) gradient_.row(pin).setZero();
@@ -382,7 +429,7 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     const bool at_a_change = problem.exact() || accuracy.rule == StoppingRule::change;
     const bool balanced = by_gradient ? norm(system_.threads, gradient_) <= accuracy.tolerance
                                       : now.error <= tolerance || (settled && at_a_change);
-    report.converged = balanced && now.residual <= contact_share * tolerance && now.open <= most_open && !now.collides;
+    report.converged = balanced && now.residual <= contact_share * tolerance && now.open <= 1 && !now.collides;
     if (report.converged || report.iterations >= std::min(most_iterations, most_useful) || !std::isfinite(now.value))
       break;
     const double before = std::exchange(steepness, norm(system_.threads, gradient_));
@@ -461,14 +508,20 @@ void ContactSolver::retreat(ContactProblem& problem, Iterate& point) {
   double part = 1;
   for (int halving = 0; halving <= most_halvings && any_collides(); ++halving) {
     part = halving < most_halvings ? part / 2 : 0;
+    const Vertices end = point.x;
     point.x = start_ + part * way;
+    for (const int pin : system_.cloth.pins) point.x.row(pin) = end.row(pin);
     find(point.x, true);
   }
   point.value = problem.evaluate(point.x, point.gradient);
 }
 
 double ContactSolver::separating_work(const ContactConstraint& contact, const Eigen::Vector3d& force) const {
-  if (!system_.contacts[static_cast<Index>(contact.key.source)]->separates()) return 0;
+  if (contact.law == ContactLaw::length) {
+    const double length = contact.start.norm();
+    return force.norm() * std::max(0.0, contact.distance - (contact.distance < 0 ? -length : length));
+  }
+  if (!source(contact.key.source).separates()) return 0;
   return force.dot(contact.normal) * std::max(0.0, contact.distance - contact.start.dot(contact.normal));
 }
 
@@ -477,7 +530,9 @@ double ContactSolver::work(const Vertices& x, bool converged) const {
   for (const ContactConstraint& contact : contacts_) {
     const Eigen::Vector3d force = respond(contact, x).force;
     const double by_force = force.dot(contact.place(x) - contact.start);
-    work += (converged ? by_force : std::min(by_force, separating_work(contact, force))) - force.dot(contact.carried);
+    // A turning edge that pushes would gain energy from its limit.
+    const bool whole = converged && contact.law != ContactLaw::length;
+    work += (whole ? by_force : std::min(by_force, separating_work(contact, force))) - force.dot(contact.carried);
   }
   return work;
 }
@@ -493,7 +548,7 @@ bool ContactSolver::carried() const {
 void ContactSolver::rebound(bool instantaneous, Vertices& v) const {
   for (const ContactConstraint& contact : contacts_) {
     const Eigen::Vector3d& n = contact.normal;
-    if (contact.welds || !(contact.force.dot(n) > 0)) continue;
+    if (contact.welds || contact.law == ContactLaw::length || !(contact.force.dot(n) > 0)) continue;
     const double compliance = contact.compliance(inverse_masses_);
     const auto change = [&](const Eigen::Vector3d& by) { contact.push(inverse_masses_, by / compliance, v); };
     const Eigen::Vector3d drift = contact.carried / flight_.h, slip = contact.gather(v) + drift;

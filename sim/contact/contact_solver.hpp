@@ -32,6 +32,10 @@ class ContactSolver {
   ///                      last step
   void begin(const State& from, double start, double end, bool instantaneous);
 
+  /// Makes the strain limits part of this step's contacts, whether or not the cloth touches anything. A step in which
+  /// it does has them anyway.
+  void include_limits() { with_limits_ = true; }
+
   /// Begins the multipliers of the step with the forces of the last one, where contacts stay near.
   /// @param forces sorted by key, see forces()
   void expect(const std::vector<ContactForce>& forces);
@@ -63,6 +67,8 @@ class ContactSolver {
 
   /// Returns true if the cloth touches an obstacle.
   [[nodiscard]] bool touches_obstacles() const;
+  /// Returns true if features of the cloth that pins hold pass through each other, or leave a closed seam open.
+  [[nodiscard]] bool is_lost() const { return lost_; }
   /// Returns true if the cloth touches a moving obstacle.
   [[nodiscard]] bool carried() const;
 
@@ -96,16 +102,20 @@ class ContactSolver {
   struct PointStatus {
     double value;     // of the augmented function [J]
     double residual;  // largest of all contacts [m]
-    double open;      // largest gap of a weld [m]
+    double open;      // largest gap of a weld or a length, relative to the allowed one
     double error;     // estimated, of the worst vertex [m]
     bool collides;    // on the straight path
   };
+  /// Returns a source of contacts by its number in their keys; strain limits come last.
+  [[nodiscard]] ContactSource& source(int number) const;
   /// Returns true if any contact found last is a collision.
   [[nodiscard]] bool any_collides() const;
   /// Finds the contacts of a cloth that moves straight to `target`.
   /// @param turn true to update the geometry of known contacts as well
   void find(const Vertices& target, bool turn);
   [[nodiscard]] Response respond(const ContactConstraint& contact, const Vertices& x) const;
+  /// Returns the response of a contact of the law ContactLaw::length.
+  [[nodiscard]] static Response respond_to_length(const ContactConstraint& contact, const Vertices& x);
   /// Sets κ of new contacts.
   void set_stiffness(const ContactProblem& problem);
   /// Sets the friction limits of new contacts, or of all.
@@ -143,6 +153,8 @@ class ContactSolver {
   double error_ = 0;                    // estimated, of the last solve [m]
   double tolerance_ = 0;                // of the last solve [m]
   double concavity_ = 0;                // share of the Hessian's negative eigenvalues
+  bool with_limits_ = false;            // see include_limits()
+  bool lost_ = false;                   // see is_lost()
   bool exact_ = false;                  // true if the last solve was of Newton's Hessian
   std::vector<ContactConstraint> contacts_, before_, held_;
   std::vector<Response> responses_;

@@ -183,6 +183,7 @@ void ImpulseContact::find() {
   before_.swap(impulses_);
   impulses_.clear();
   found_.clear();
+  lost_ = false;
   auto from = before_.begin();
   for (int source = 0; source < static_cast<int>(sources_.size()); ++source) {
     held_.clear();
@@ -193,7 +194,10 @@ void ImpulseContact::find() {
   }
   auto known = before_.begin();
   for (const ContactConstraint& contact : found_) {
-    if (!contact.can_move(inverse_masses_)) continue;
+    if (!contact.can_move(inverse_masses_)) {
+      lost_ = lost_ || contact.is_lost(target_);
+      continue;
+    }
     Impulse impulse{.contact = contact, .compliance = contact.compliance(inverse_masses_), .bounce = {}};
     impulse.contact.distance = contact.possible_distance();
     while (known != before_.end() && known->contact.key < contact.key) ++known;

@@ -48,7 +48,7 @@ class ImpulseContact final : public MotionFilter {
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
   bool adjust(const Vertices& x, double time, double h, Vertices& v) override;
   void finish(Vertices& v) override;
-  [[nodiscard]] bool done() const override { return converged_ && !beyond_; }
+  [[nodiscard]] bool done() const override { return converged_ && !beyond_ && !lost_; }
 
  private:
   /// A contact with its impulse in this step.
@@ -91,6 +91,7 @@ class ImpulseContact final : public MotionFilter {
   FreeFlight flight_;
   Vertices target_, before_target_;
   bool converged_ = true;
+  bool lost_ = false;    // true if pins make features of the cloth violate a contact
   bool beyond_ = false;  // true if the last solve ended at the limit of its passes and falls short
 };
 

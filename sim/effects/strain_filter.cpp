@@ -226,6 +226,15 @@ void StrainFilter::relax_from(const Vertices& x, double h, Vertices& v, int most
   for (const Index k : active_) restraint_.tensions[spring_[k]] = -limited_[k].push / (h * h);
 }
 
+double StrainFilter::tolerated_gain() const {
+  double sum = 0;
+  for (const Index k : active_) {
+    const Limited& s = limited_[k];
+    sum += std::abs(restraint_.tensions[spring_[k]]) * limits_.tolerance * (s.push > 0 ? s.shortest : s.longest);
+  }
+  return sum;
+}
+
 bool StrainFilter::adjust(const Vertices& x, double, double h, Vertices& v) {
   const double most = (1 + limits_.tolerance) * (1 + limits_.tolerance);
   const double least = (1 - limits_.tolerance) * (1 - limits_.tolerance);

@@ -71,6 +71,7 @@ class StrainFilter final : public MotionFilter {
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
   bool adjust(const Vertices& x, double time, double h, Vertices& v) override;
   [[nodiscard]] const Restraint* restraint() const override { return &restraint_; }
+  [[nodiscard]] double tolerated_gain() const override;
   [[nodiscard]] bool done() const override { return converged_; }
 
  private:

@@ -4,6 +4,7 @@
 
 #include "core/keys.hpp"
 #include "drape/sim/settings.hpp"
+#include "sim/contact/edge_limits.hpp"
 #include "sim/effects/effect_keys.hpp"
 #include "sim/effects/strain_filter.hpp"
 #include "sim/system.hpp"
@@ -56,6 +57,7 @@ void StrainLimit::check(const SimulationSettings& settings, const ProblemSink& p
 
 void StrainLimit::install(System& system) const {
   system.filters.push_back(std::make_unique<StrainFilter>(*this, system.cloth));
+  system.limits.push_back(std::make_shared<EdgeLimits>(*this, system.cloth));
 }
 
 }  // namespace drape

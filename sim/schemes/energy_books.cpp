@@ -18,6 +18,7 @@ constexpr double least_kept = 1e-10;
 // Fraction of the kinetic energy that is noticed in steps with contact: velocities are differences of rounded
 // positions.
 constexpr double noticed = 1e-9;
+constexpr double much = 0.01;  // see EnergyBooks::gains_much()
 
 /// Returns Σ m a·b over the rows of n×3 expressions.
 double inner(const Threads& threads, const Eigen::VectorXd& m, const auto& a, const auto& b) {
@@ -101,6 +102,18 @@ bool EnergyBooks::gains_in_contact(const Iterate& point, double work, double tol
   return gain(point) - work > rounding(point) + noticed * start_kinetic_ + solved;
 }
 
+bool EnergyBooks::adds(const Iterate& from, const Iterate& to, double tolerated) {
+  const auto too_much = [&] { return gain(to) > std::max(0.0, gain(from)) + tolerated + rounding(to); };
+  if (!too_much()) return false;
+  if (!start_exact_) evaluate_start();
+  return too_much();
+}
+
+bool EnergyBooks::gains_much(const Iterate& point, double work) const {
+  const double given = std::max(0.0, work);
+  return gain(point) - given > much * (start_kinetic_ + given);
+}
+
 void EnergyBooks::evaluate_start() {
   start_.x = state_->x;
   start_.gradient.resize(start_.x.rows(), 3);
@@ -139,7 +152,7 @@ double EnergyBooks::tolerated(const Iterate& point) const {
   return std::min(tolerated_share * most, std::max(lost(point), -work));
 }
 
-double EnergyBooks::shed(Iterate& point, bool touches) {
+double EnergyBooks::shed(Iterate& point, bool touches, double allowed) {
   Vertices back = start_.x;
   if (is_free(system_) && !touches)
     back.rowwise() += mean(system_.cloth, objective_.y()) - mean(system_.cloth, start_.x);
@@ -149,7 +162,7 @@ double EnergyBooks::shed(Iterate& point, bool touches) {
     system_.stop.check();
     trial.x = back + length * way;
     trial.value = objective_.evaluate(trial.x, trial.gradient);
-    return !(gain(trial) <= 0);
+    return !(gain(trial) <= allowed);
   };
   double length = 0.5;
   while (length > least_kept && gains_at(length)) length /= 2;

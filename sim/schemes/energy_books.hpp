@@ -37,10 +37,17 @@ class EnergyBooks {
   /// Returns true if ΔK + ΔE − W at the point exceeds rounding.
   /// @param tolerant true to subtract the tolerated gain
   [[nodiscard]] bool gains(const Iterate& point, bool tolerant);
-  /// Moves a point that gains energy towards the start of the step until it gains nothing. Returns the remaining
-  /// fraction of the path. A free cloth moves towards its rigid translation instead.
+  /// Returns true if a change from one end of the step to another makes ΔK + ΔE − W positive, or more so, by more than
+  /// is tolerated [J].
+  [[nodiscard]] bool adds(const Iterate& from, const Iterate& to, double tolerated);
+  /// Returns true if ΔK + ΔE − W exceeds the work of moving obstacles [J], where that is positive, by a hundredth of it
+  /// and of the kinetic energy at the start.
+  [[nodiscard]] bool gains_much(const Iterate& point, double work) const;
+  /// Moves a point that gains energy towards the start of the step until it gains no more than is allowed. Returns the
+  /// remaining fraction of the path. A free cloth moves towards its rigid translation instead.
   /// @param touches true if contacts hold the cloth
-  double shed(Iterate& point, bool touches = false);
+  /// @param allowed [J]
+  double shed(Iterate& point, bool touches = false, double allowed = 0);
   /// Stores the energy at the end of the step.
   void end(const Iterate& point);
 

@@ -72,7 +72,7 @@ StepReport SemiImplicitEuler::advance(State& state, StepForces& forces) {
     forces.note(fields_->force());
   }
   system_.correct(state);
-  system_.move(state, nullptr);
+  report.converged = system_.move(state) && report.converged;
   return report;
 }
 
@@ -132,7 +132,7 @@ StepReport Verlet::advance(State& state, StepForces& forces) {
   system_.place_pins(end, state.x);
   if (!system_.filters.empty()) {
     std::swap(state.x, start_x_);
-    system_.move(state, start_x_, way_);
+    report.converged = system_.move(state, start_x_, way_) && report.converged;
   }
   system_.correct_half(state);
   system_.drive_pins(end, state.v);

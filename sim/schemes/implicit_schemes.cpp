@@ -12,7 +12,11 @@ BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver
     : MinimisingScheme(system, system.step, make_solver, Directions::at_start),
       of_the_moment_(instantaneous),
       books_(system, objective_, *solver_) {
-  if (!system.contacts.empty()) contact_.emplace(system);
+  if (!system.contacts.empty() || !system.limits.empty()) contact_.emplace(system);
+  if (system.limits.empty()) return;
+  limited_ = point_;
+  limited_v_ = Vertices::Zero(system.cloth.vertex_count(), 3);
+  nothing_held_ = {.acceleration = limited_v_, .tensions = Eigen::VectorXd::Zero(std::ssize(system.cloth.springs))};
 }
 
 StepReport BackwardEuler::solve_step(const Vertices& steady, const std::function<bool()>& may_end) {
@@ -48,6 +52,16 @@ double BackwardEuler::shed(bool held) {
   return books_.shed(point_, true);
 }
 
+double BackwardEuler::shed_beside_moving(double work) {
+  const Iterate end = point_;
+  const double part = books_.shed(point_, true, std::max(0.0, work));
+  // The obstacle may have moved beyond what stays behind.
+  if (!contact_->collides(point_.x)) return part;
+  point_ = end;
+  static_cast<void>(contact_->touches(point_.x));
+  return 1;
+}
+
 double BackwardEuler::residual() {
   return touched_ ? norm(system_.threads, contact_->residual()) : MinimisingScheme::residual();
 }
@@ -63,6 +77,39 @@ bool BackwardEuler::is_blocked_by_contact(const State& from, const Vertices& x) 
   return contact_->is_blocked(x);
 }
 
+void BackwardEuler::close_books(StepReport& report) {
+  if (touched_) {
+    const double met = report.converged ? contact_->tolerance() : 0;
+    const double work = contact_->work(point_.x, report.converged);
+    if (!books_.gains_in_contact(point_, work, met)) return;
+    if (!contact_->carried()) {
+      report.kept = shed(contact_->touches_obstacles());
+    } else if (books_.gains_much(point_, work)) {
+      report.kept = shed_beside_moving(work);
+    }
+  } else {
+    // The minimiser has checked a step that ended by small changes, unless it was just moved.
+    const bool checked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
+    if (checked || !books_.gains(point_, report.converged)) return;
+    report.kept = shed(false);
+  }
+  report.converged = false;
+}
+
+bool BackwardEuler::limit_strain(State& state, StepReport& report) {
+  divided_difference(system_.threads, point_.x, state.x, system_.step, limited_v_);
+  const bool converged = system_.filter(state, limited_v_);
+  sum(system_.threads, state.x, system_.step, limited_v_, limited_.x);
+  system_.place_pins(system_.time(state.step + 1), limited_.x);
+  limited_.value = objective_.evaluate(limited_.x, limited_.gradient);
+  if (books_.adds(point_, limited_, system_.tolerated_gain()) || contact_->touches(limited_.x)) return false;
+  // The gradient is still that of the minimum, which tells how well it was solved.
+  std::swap(point_.x, limited_.x);
+  point_.value = limited_.value;
+  report.converged = report.converged && converged;
+  return true;
+}
+
 StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   const Expected expected = take_expected();
   system_.begin(state);
@@ -76,28 +123,34 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   }
   const auto begun = [&] { books_.begin(state, point_.x); };
   const auto minimise = [&] { return solve_step(steady, [this] { return !books_.gains(point_, true); }); };
-  StepReport report = solve_with_fields(state, force, system_.time(state.step + 1), expected.late, begun, minimise);
+  const auto solve = [&] {
+    const StepReport report =
+        solve_with_fields(state, force, system_.time(state.step + 1), expected.late, begun, minimise);
+    touched_ = contact_ && !contact_->contacts().empty();
+    return report;
+  };
+  StepReport report = solve();
+  if (!touched_) close_books(report);
+  if (!touched_ && !system_.filters.empty() && !limit_strain(state, report)) {
+    contact_->include_limits();
+    const int before = report.iterations;
+    report = solve();
+    report.iterations += before;
+    if (!touched_) close_books(report);
+  }
+  if (touched_) {
+    close_books(report);
+    if (!system_.limits.empty()) state.restraint = nothing_held_;
+  }
+  if (is_lost()) report.converged = false;
   if (fields_) forces.note(fields_->end());
-  const bool touches = touched_ = contact_ && !contact_->contacts().empty();
-  const bool held = touches && contact_->touches_obstacles();
-  // The minimiser has checked a step that ended by small changes, unless it was just moved.
-  const bool looked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
-  const double met = touches && report.converged ? contact_->tolerance() : 0;
-  if (touches && books_.gains_in_contact(point_, contact_->work(point_.x, report.converged), met)) {
-    if (!contact_->carried()) report.kept = shed(held);
-    report.converged = false;
-  }
-  if (!touches && !looked && books_.gains(point_, report.converged)) {
-    report.kept = shed(false);
-    report.converged = false;
-  }
   books_.end(point_);
   divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
-  system_.move(state, &point_.x);
+  copy(system_.threads, point_.x, state.x);
   state.contact_forces.clear();
   // An unconverged solve does not determine a bounce well enough to give it energy. A bounce changes the velocity after
   // the step, and no filter moves the cloth by it.
-  if (touches && report.converged) {
+  if (touched_ && report.converged) {
     contact_->rebound(of_the_moment_, state.v);
     state.contact_forces = contact_->forces();
   }
@@ -118,12 +171,7 @@ constexpr double delta = 1 - 1 / (2 * gamma);
 Sdirk2::Sdirk2(const System& system, const MakeSolver& make_solver)
     : MinimisingScheme(system, tableau::gamma * system.step, make_solver, Directions::predicted),
       make_solver_(make_solver) {
-  if (!system.contacts.empty()) euler_.emplace(system, make_solver, true);
-}
-
-void Sdirk2::expect(const Vertices& early, const Vertices& late) {
-  MinimisingScheme::expect(early, late);
-  if (euler_) euler_->expect(early, late);
+  if (!system.contacts.empty() || !system.limits.empty()) euler_.emplace(system, make_solver, true);
 }
 
 double Sdirk2::residual() { return by_euler_ ? euler_->residual() : MinimisingScheme::residual(); }
@@ -133,6 +181,7 @@ double Sdirk2::residual_force() { return by_euler_ ? euler_->residual_force() : 
 StepReport Sdirk2::redo(State& state, StepForces& forces) {
   if (!euler_) euler_.emplace(system_, make_solver_, true);
   by_euler_ = true;
+  if (of_step_.late != nullptr) euler_->expect(*of_step_.early, *of_step_.late);
   return euler_->advance(state, forces);
 }
 
@@ -145,12 +194,17 @@ std::optional<double> Sdirk2::energy_bound(const State& state) const {
 
 StepReport Sdirk2::advance(State& state, StepForces& forces) {
   by_euler_ = false;
-  if (system_.contacts.empty()) return advance_freely(state, forces);
-  if (euler_->is_blocked_by_contact(state, state.x + system_.step * state.v)) return redo(state, forces);
+  of_step_ = take_expected();
+  if (!euler_) return advance_freely(state, forces);
+  const bool touches = !system_.contacts.empty();
+  if (touches && euler_->is_blocked_by_contact(state, state.x + system_.step * state.v)) return redo(state, forces);
   before_ = state;
   state.contact_forces.clear();
-  const StepReport freely = advance_freely(state, forces);
-  if (!euler_->is_blocked_by_contact(before_, state.x)) return freely;
+  StepReport freely = advance_freely(state, forces);
+  if (!gained_ && !(touches && euler_->is_blocked_by_contact(before_, state.x))) {
+    freely.converged = freely.converged && !euler_->is_lost();
+    return freely;
+  }
   state = before_;
   StepReport report = redo(state, forces);
   report.iterations += freely.iterations;
@@ -160,27 +214,42 @@ StepReport Sdirk2::advance(State& state, StepForces& forces) {
 StepReport Sdirk2::advance_freely(State& state, StepForces& forces) {
   const double start = system_.time(state.step), end = system_.time(state.step + 1);
   const double first = start + tableau::gamma * system_.step;
-  const Expected expected = take_expected();
   StepReport report;
   system_.begin(state);
   system_.correct_half(state);
   find_forces(state, forces);
   stage_ = state;
-  solve(first, expected.early, report);
+  solve(first, of_step_.early, report);
   if (fields_) of_fields_ = (1 - tableau::gamma) * fields_->end();
   if (forces.any_of_velocity()) find_second_forces(first, forces);
   stage_.x = state.x + tableau::rest * (stage_.x - state.x);
   stage_.v = state.v + tableau::rest * (stage_.v - state.v);
-  solve(end, expected.late, report);
+  solve(end, of_step_.late, report);
   if (fields_) {
     of_fields_ += tableau::gamma * fields_->end();
     forces.note(of_fields_);
   }
   state.v = stage_.v;
-  system_.move(state, stage_.x, way_);
+  if (system_.filters.empty()) {
+    copy(system_.threads, stage_.x, state.x);
+  } else {
+    report.converged = system_.move(state, stage_.x, way_) && report.converged;
+    gained_ = filters_gain(state);
+  }
   system_.correct_half(state);
   system_.drive_pins(end, state.v);
   return report;
+}
+
+bool Sdirk2::filters_gain(const State& state) {
+  const auto kinetic = [&](const Vertices& v) { return 0.5 * system_.cloth.masses.dot(v.rowwise().squaredNorm()); };
+  limited_.x = state.x;
+  limited_.value = objective_.evaluate(limited_.x, limited_.gradient);
+  const double elastic = limited_.value - objective_.inertial_value(state.x);
+  const double before = point_.value - objective_.inertial_value(point_.x);
+  const double work = force_.cwiseProduct(state.x - stage_.x).sum();
+  const double rounding = objective_.rounding(limited_.value) + objective_.rounding(point_.value);
+  return kinetic(state.v) + elastic - work > kinetic(stage_.v) + before + rounding + system_.tolerated_gain();
 }
 
 void Sdirk2::find_forces(const State& state, StepForces& forces) {

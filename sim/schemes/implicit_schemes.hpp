@@ -124,7 +124,7 @@ class MinimisingScheme : public Scheme {
   void choose_point(const State& from, const Vertices* expected) {
     const double t = objective_.duration();
     const Vertices& held_back = from.restraint.acceleration;
-    const bool held = expected == nullptr && held_back.rows() == from.x.rows();
+    const bool held = expected == nullptr && held_back.rows() == from.x.rows() && !held_back.isZero(0);
     if (expected != nullptr || held) {
       if (held) {
         point_.x = objective_.y() + t * t * held_back;
@@ -167,11 +167,22 @@ class BackwardEuler final : public MinimisingScheme {
   /// Returns true if contacts keep a cloth from moving straight from a state to x in the step that begins there.
   /// Requires something that the cloth can touch.
   [[nodiscard]] bool is_blocked_by_contact(const State& from, const Vertices& x);
+  /// Returns true if pins violate contacts of the cloth with itself, see ContactSolver::is_lost().
+  [[nodiscard]] bool is_lost() const { return contact_ && contact_->is_lost(); }
 
  private:
   /// Shortens the step until it gains no energy, along a path free of collisions. Returns the remaining fraction.
   /// @param held true if contacts hold the cloth
   double shed(bool held);
+  /// Does so in contact with moving obstacles, which may do this work [J], unless they would move into the cloth.
+  double shed_beside_moving(double work);
+
+  /// Shortens a solved step that gains energy, and reports it as not converged.
+  void close_books(StepReport& report);
+
+  /// Lets the filters change the end of a step without contact, which the point is. Returns false if this would gain
+  /// energy or lead into contact; the limits must then be solved with the cloth.
+  bool limit_strain(State& state, StepReport& report);
 
   /// Gives a free cloth in contact with itself the momentum that the forces of the step leave it, unless the cloth then
   /// collides.
@@ -186,7 +197,10 @@ class BackwardEuler final : public MinimisingScheme {
   EnergyBooks books_;
   std::optional<ContactSolver> contact_;   // if the cloth can touch anything
   std::optional<ContactProblem> problem_;  // of contact, created on first use
-  bool touched_ = false;                   // true if the last step had contacts
+  bool touched_ = false;                   // true if the last step was solved under contacts
+  Iterate limited_;                        // end of a step after the filters
+  Restraint nothing_held_;                 // of a step that the filters did not change
+  Vertices limited_v_;                     // mean velocity until there [m/s]
 };
 
 /// The singly diagonally implicit Runge-Kutta method of two stages and second order (Alexander 1977, theorem 5), which
@@ -217,7 +231,6 @@ class Sdirk2 final : public MinimisingScheme {
   Sdirk2(const System& system, const MakeSolver& make_solver);
 
   StepReport advance(State& state, StepForces& forces) override;
-  void expect(const Vertices& early, const Vertices& late) override;
   [[nodiscard]] bool first_order() const override { return by_euler_; }
   [[nodiscard]] bool can_redo() const override { return true; }
   StepReport redo(State& state, StepForces& forces) override;
@@ -229,6 +242,8 @@ class Sdirk2 final : public MinimisingScheme {
  private:
   /// Advances a step without contact.
   StepReport advance_freely(State& state, StepForces& forces);
+  /// Returns true if the filters have added energy to the end of the step that the second stage found.
+  [[nodiscard]] bool filters_gain(const State& state);
   /// Computes the forces of the first stage: sets force_, and of_start_ for those that depend on velocities.
   void find_forces(const State& state, StepForces& forces);
   /// Computes the forces of the second stage such that the step has the weights δ and 1 − δ.
@@ -242,7 +257,10 @@ class Sdirk2 final : public MinimisingScheme {
   Vertices of_fields_;                  // mean force of the velocity fields [N]
   MakeSolver make_solver_;
   std::optional<BackwardEuler> euler_;  // for steps with contact and for those done again; created on first use
+  Expected of_step_;                    // what was expected of the step
   bool by_euler_ = false;               // true if it took the last step
+  bool gained_ = false;                 // see filters_gain()
+  Iterate limited_ = point_;            // end of a step after the filters
   State before_;
 };
 

@@ -85,13 +85,12 @@ class SubstepScheme::Motion {
     report.iterations += substep.iterations;
     report.rise = std::max(report.rise, substep.rise);
     solved_ = solved_ && substep.converged;
-    for (const auto& filter : system.filters) solved_ = solved_ && filter->converged();
     note_kick();
     ++done_;
   }
 
   [[nodiscard]] bool over() const { return done_ == system.substeps; }
-  /// Returns true if the solves of all substeps have converged, those of the filters as well.
+  /// Returns true if all substeps have converged.
   [[nodiscard]] bool solved() const { return solved_; }
   [[nodiscard]] bool finite() const { return std::isfinite(norm(state_.x)); }
   /// Returns the error estimate of the substeps done [m]; infinite if a velocity is not finite.
@@ -228,7 +227,6 @@ StepReport DividedStep::advance(State& state, StepForces& forces) {
     }
     const StepReport substep = scheme_->advance(state, forces);
     report.converged = report.converged && substep.converged;
-    for (const auto& filter : system_.filters) report.converged = report.converged && filter->converged();
   }
   state.step = step;
   report.substeps = system_.substeps;

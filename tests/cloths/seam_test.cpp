@@ -43,6 +43,20 @@ Cloth two_panels(int times, double time, double apart = 0.1) {
 class Seams : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(Cloths, Seams, testing::ValuesIn(sewing_methods), method_name);
 
+// No solve can close a seam between pins that are apart: its steps say so.
+TEST_P(Seams, ReportThatPinsKeepThemOpen) {
+  Cloth cloth = two_panels(1, 0);
+  for (const SeamTie& tie : cloth.seams[0].ties) {
+    cloth.pins.push_back(tie.edge[0]);
+    cloth.pins.push_back(tie.edge[1]);
+    cloth.pins.push_back(tie.vertex);
+  }
+  std::ranges::sort(cloth.pins);
+  cloth.pins.erase(std::unique(cloth.pins.begin(), cloth.pins.end()), cloth.pins.end());
+  Simulation simulation(exactly(cloth, GetParam(), 0.01, {Gravity{}}));
+  for (int k = 0; k < 3; ++k) EXPECT_FALSE(simulation.step().converged);
+}
+
 TEST_P(Seams, CloseInTheirTimeAndStayClosed) {
   for (const int times : {1, 2}) {
     constexpr double time = 0.1, step = 0.01;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "drape/sim/effects/damping.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
 #include "tests/contact/contact_setup.hpp"
 #include "tests/support/audited_run.hpp"
@@ -46,6 +47,36 @@ TEST_P(LimitsBesideContact, NoEdgeExceedsItsLimitUnlessTheStepSaysSo) {
     if (stretch > limit * (1 - 1e-3)) ++held;
   }
   EXPECT_GT(held, 5) << "nothing is stretched so far";
+}
+
+// A limit is part of the solve: it and contact do not undo each other's work.
+TEST_P(LimitsBesideContact, HardlyAnyStepIsLeftUnsolved) {
+  const SimulationSettings s = crate();
+  if (is_explicit(s.integrator.method) || s.integrator.method == Method::liu13) GTEST_SKIP() << "for Newton's Hessian";
+  Simulation simulation(s);
+  int unsolved = 0;
+  for (int step = 0; step < 60; ++step) unsolved += simulation.step().converged ? 0 : 1;
+  EXPECT_LE(unsolved, 3);
+}
+
+// The friction of a strip that hangs over an edge bears more than the part that hangs, whether or not a limit holds it.
+TEST_P(LimitsBesideContact, FrictionHoldsAStripOverAnEdge) {
+  Mesh mesh = make_grid(32, 3);
+  mesh.positions.col(1) *= 0.1;
+  mesh.positions.col(2).setConstant(distance);
+  SimulationSettings s = settings(make_cloth(mesh, mesh, 0.1, 24, {}), 0.01);
+  Body table = solved_box({2, 2, 1}, 0);
+  table.center = Eigen::Vector3d(-0.6, 0, -0.5);
+  table.friction = 0.8;
+  s.effects.add(table);
+  s.effects.add(Damping{.factor = 0.1});
+  s.effects.add(StrainLimit{.max_stretch = 1.01, .tolerance = tolerance});
+  s = divided(s);
+  Simulation simulation(s);
+  run(simulation, 2);
+  const Vertices before = simulation.state().x;
+  run(simulation, 3);
+  EXPECT_LT((simulation.state().x - before).topRows(20).rowwise().norm().maxCoeff(), 2e-4);
 }
 
 TEST_P(LimitsBesideContact, NothingPassesAndNoEnergyIsGiven) {

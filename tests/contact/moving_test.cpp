@@ -1,0 +1,90 @@
+// Obstacles and pins that move: they give no more energy than they carry, and go exactly where they are told.
+
+#include <Eigen/Geometry>
+
+#include "drape/sim/effects/moving_pins.hpp"
+#include "tests/contact/contact_setup.hpp"
+#include "tests/support/audited_run.hpp"
+
+namespace drape::test {
+namespace {
+
+class Moving : public Solved {};
+INSTANTIATE_TEST_SUITE_P(With, Moving, testing::ValuesIn(contact_methods), method_name);
+
+// A step that does not converge may not take energy from an obstacle that hardly moves.
+TEST_P(Moving, ASlowObstacleGivesNoEnergyToUnsolvedSteps) {
+  for (const double speed : {0.0, 1e-9}) {
+    Mesh mesh = level_square(1, 8, 0);
+    mesh.positions = (mesh.positions * Eigen::AngleAxisd(0.4, Eigen::Vector3d(0.8, 0.6, 0)).toRotationMatrix()).eval();
+    mesh.positions.col(2).array() += 0.02 - mesh.positions.col(2).minCoeff();
+    SimulationSettings s = settings(make_cloth(mesh, mesh, 0.1, 1e6, {}), 0.04);
+    s.cloth.velocities.col(2).setConstant(-3);
+    Body body = solved_box({1, 1, 0.4}, 0);
+    body.friction = 1.5;
+    if (speed > 0) body.velocity = Eigen::Vector3d(0, 0, speed);
+    s.effects = {body};
+    s = divided(s);
+    Simulation simulation(s);
+    const double start = simulation.energies().total();
+    double most = start;
+    for (int step = 0; step < 25; ++step) {
+      simulation.step();
+      most = std::max(most, simulation.energies().total());
+    }
+    EXPECT_LE(most, 1.05 * start) << speed;
+  }
+}
+
+/// A sphere around the origin that grows by `speed` until `end`.
+class GrowingSphere final : public SphereTrack {
+ public:
+  static constexpr double first = 0.2, speed = 1, end = 0.2;  // [m], [m/s], [s]
+
+  [[nodiscard]] SphereShape at(double time) const override {
+    const double radius = first + speed * std::min(time, end);
+    return {.radius = radius, .reach = radius + distance};
+  }
+};
+
+// What lies on it rises with its surface, and flies on at that speed once it stops.
+TEST_P(Moving, AGrowingSphereCarriesWhatLiesOnIt) {
+  SimulationSettings s = settings(plain_sheet(level_square(0.05, 2, GrowingSphere::first + distance), 50), 0.01);
+  s.effects = {Sphere{.thickness = distance, .track = std::make_shared<GrowingSphere>()}};
+  s = divided(s);
+  Simulation simulation(s);
+  const auto speed = [&] { return mean_of(s.cloth, simulation.state().v).z(); };
+  run(simulation, 0.15);
+  EXPECT_NEAR(speed(), GrowingSphere::speed, 0.05);
+  run(simulation, 0.5);
+  EXPECT_NEAR(speed(), GrowingSphere::speed, 0.05);
+}
+
+// Pins that pull a stiff cloth tight over a box: most steps cannot be solved, but the pins are where they have to be.
+TEST_P(Moving, PinsGoWhereTheyAreToldAcrossAnObstacle) {
+  Cloth cloth = make_cloth(make_grid(6, 6), make_grid(6, 6), 1, 20000, {});
+  for (int row = 0; row <= 6; ++row) {
+    for (const int pin : {7 * row, 7 * row + 6}) cloth.pins.push_back(pin);
+  }
+  cloth.positions.col(2).setConstant(0.3);
+  SimulationSettings s = settings(std::move(cloth), 0.02);
+  Body box = solved_box({0.5, 0.5, 0.5}, 0.25);
+  box.center = Eigen::Vector3d(0.3, 0, 0);
+  s.effects.add(box);
+  s.effects.add(MovingPins{.pins = s.cloth.pins, .keyframes = {{.time = 0.2, .value = {0, 0, -1}}}});
+  s = divided(s);
+  Simulation simulation(s);
+  for (int step = 1; step <= 12; ++step) {
+    simulation.step();
+    const double height = 0.3 - std::min(1.0, step * s.step / 0.2);
+    for (const int pin : s.cloth.pins) {
+      EXPECT_NEAR(simulation.state().x(pin, 2), height, 1e-12) << "step " << step << ", pin " << pin;
+    }
+  }
+  // Impulses hold what collides as one rigid body, from which pins depart.
+  if (is_explicit(s.integrator.method)) return;
+  EXPECT_EQ(audit_run(s, 12).with_passages, 0);
+}
+
+}  // namespace
+}  // namespace drape::test
