@@ -64,8 +64,9 @@ struct Key {
   double minimum = -std::numeric_limits<double>::infinity();  ///< applies to every component of a vector
   double maximum = std::numeric_limits<double>::infinity();
   bool minimum_excluded = false;
-  bool hashed = true;  ///< false: a motion's hash omits it, as it affects only the picture or the length of the run, or
-                       ///< as the hash contains what is made of it
+  /// False if a motion's hash omits it: it affects only pictures or the length of the run, or what is made of it is
+  /// in the hash.
+  bool hashed = true;
 
   /// Returns the target if it has this type, otherwise null.
   template <class T>

@@ -13,8 +13,8 @@
 namespace drape {
 
 /// Calls work(worker, index) once for every index below `count`, on several threads; `worker` is the thread's number,
-/// below `workers`. Which thread takes an index varies, so no result may depend on it. Ends early when a stop is
-/// requested or a call throws; rethrows the first exception.
+/// below `workers`. The assignment of indices to threads varies; results must not depend on it. Ends early when a stop
+/// is requested or a call throws; rethrows the first exception.
 inline void for_each_in_parallel(std::size_t workers, std::size_t count, const std::stop_token& stop,
                                  const std::function<void(std::size_t, std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;

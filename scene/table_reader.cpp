@@ -173,7 +173,7 @@ std::vector<const TomlValue*> tables_of(const TomlValue& value, bool repeatable)
   return tables;
 }
 
-/// Looks whether the cloth begins where an effect may not let it be.
+/// Reports cloth that begins inside or across an obstacle whose effect does not allow that.
 void check_start(const SimulationSettings& settings, std::size_t effect, const ProblemSink& problem) {
   if (allows_overlap(settings.effects[effect])) return;
   const auto overlap = find_overlap(settings, effect, settings.cloth.positions, 0);

@@ -116,9 +116,9 @@ bool FormulaField::uses(std::span<const std::string_view> names) const {
   return std::ranges::any_of(names, [&](std::string_view name) { return parsers_->uses(name); });
 }
 
-bool FormulaField::position_forces() const { return uses(places); }
-bool FormulaField::of_time() const { return uses(times); }
-bool FormulaField::velocity_forces() const { return uses(speeds); }
+bool FormulaField::uses_position() const { return uses(places); }
+bool FormulaField::uses_time() const { return uses(times); }
+bool FormulaField::uses_velocity() const { return uses(speeds); }
 
 std::optional<std::string> FormulaField::problem(const std::string& formula) {
   FieldPoint point;

@@ -34,9 +34,9 @@ class FormulaField {
 
   /// Returns true if any formula uses one of these names.
   [[nodiscard]] bool uses(std::span<const std::string_view> names) const;
-  [[nodiscard]] bool position_forces() const;  ///< x, y or z
-  [[nodiscard]] bool of_time() const;          ///< t
-  [[nodiscard]] bool velocity_forces() const;  ///< vx, vy or vz
+  [[nodiscard]] bool uses_position() const;  ///< x, y or z
+  [[nodiscard]] bool uses_time() const;      ///< t
+  [[nodiscard]] bool uses_velocity() const;  ///< vx, vy or vz
 
   /// Returns the error of a formula, as the end of a sentence that has named it; nothing if it is valid.
   [[nodiscard]] static std::optional<std::string> problem(const std::string& formula);

@@ -57,8 +57,8 @@ void StepObjective::begin(const Vertices& x, const Vertices& v, const Vertices& 
            });
 }
 
-StepObjective::Way StepObjective::longest_way(const Vertices& x) const {
-  const Way squares = reduce(
+StepObjective::Displacement StepObjective::largest_displacement(const Vertices& x) const {
+  const Displacement squares = reduce(
       threads(), x.rows(),
       [&](Eigen::Index first, Eigen::Index count) {
         const auto whole = [&](int axis) {
@@ -70,12 +70,13 @@ StepObjective::Way StepObjective::longest_way(const Vertices& x) const {
         const auto longest = [&](const auto& way) {
           return (free_.segment(first, count) * (way(0).square() + way(1).square() + way(2).square())).maxCoeff();
         };
-        return Way{.whole = longest(whole), .by_forces = longest(forced)};
+        return Displacement{.total = longest(whole), .by_forces = longest(forced)};
       },
-      [](const Way& most, const Way& next) {
-        return Way{.whole = std::max(most.whole, next.whole), .by_forces = std::max(most.by_forces, next.by_forces)};
+      [](const Displacement& most, const Displacement& next) {
+        return Displacement{.total = std::max(most.total, next.total),
+                            .by_forces = std::max(most.by_forces, next.by_forces)};
       });
-  return {.whole = std::sqrt(squares.whole), .by_forces = std::sqrt(squares.by_forces)};
+  return {.total = std::sqrt(squares.total), .by_forces = std::sqrt(squares.by_forces)};
 }
 
 void StepObjective::predict_with_start_forces(Vertices& x, Vertices& gradient) const {
@@ -157,23 +158,24 @@ const Vertices& StepForces::all(const State& state, double time) {
   return sum(state, time, [](const Force&) { return true; });
 }
 
-const Vertices& StepForces::position_forces(const State& state, double time) {
-  return sum(state, time, [](const Force& force) { return !force.velocity_forces(); });
+const Vertices& StepForces::sum_position_forces(const State& state, double time) {
+  return sum(state, time, [](const Force& force) { return !force.depends_on_velocity(); });
 }
 
-bool StepForces::any_of_velocity() const {
-  return std::any_of(system_.forces.begin(), system_.forces.end(), [](const auto& f) { return f->velocity_forces(); });
+bool StepForces::any_depends_on_velocity() const {
+  return std::any_of(system_.forces.begin(), system_.forces.end(),
+                     [](const auto& f) { return f->depends_on_velocity(); });
 }
 
-void StepForces::velocity_forces(const State& state, double time, Vertices& force) const {
+void StepForces::sum_velocity_forces(const State& state, double time, Vertices& force) const {
   force.setZero(state.x.rows(), 3);
   for (const auto& f : system_.forces) {
-    if (f->velocity_forces()) f->add(state, time, force);
+    if (f->depends_on_velocity()) f->add(state, time, force);
   }
 }
 
-void StepForces::note(const Vertices& velocity_forces) {
-  force_ = *push_ + velocity_forces;
+void StepForces::record_velocity_force(const Vertices& mean) {
+  force_ = *push_ + mean;
   push_ = &force_;
 }
 

@@ -18,9 +18,7 @@ class StepObjective {
   StepObjective(const System& system, double duration);
 
   /// Begins another step: computes y.
-  /// @param x, v  initial positions and velocities, n×3 [m], [m/s]; longest_way() and predict_with_start_forces() read
-  /// them
-  ///           again
+  /// @param x, v  initial positions and velocities, n×3 [m], [m/s]; must stay valid until the step ends
   /// @param force f, n×3 [N]
   /// @param end   time at the end of the step [s]
   void begin(const Vertices& x, const Vertices& v, const Vertices& force, double end);
@@ -29,11 +27,11 @@ class StepObjective {
   [[nodiscard]] const Vertices& y() const { return y_; }
 
   /// Largest displacement of a free vertex in a step that ends at x [m].
-  struct Way {
-    double whole = 0;      ///< ‖x − x₀‖
+  struct Displacement {
+    double total = 0;      ///< ‖x − x₀‖
     double by_forces = 0;  ///< ‖x − x₀ − τ v₀‖, which is τ²a with the acceleration a of the step
   };
-  [[nodiscard]] Way longest_way(const Vertices& x) const;
+  [[nodiscard]] Displacement largest_displacement(const Vertices& x) const;
 
   /// Sets x to the final positions under constant initial forces, including those of energies: y − τ² M⁻¹ ∇E(x₀), n×3
   /// [m]. Also computes ∇g(x₀).
@@ -103,14 +101,14 @@ class StepForces {
   const Vertices& all(const State& state, double time);
 
   /// Returns the sum of forces that do not depend on velocities.
-  const Vertices& position_forces(const State& state, double time);
+  const Vertices& sum_position_forces(const State& state, double time);
 
   /// Returns true if any force depends on velocities.
-  [[nodiscard]] bool any_of_velocity() const;
+  [[nodiscard]] bool any_depends_on_velocity() const;
   /// Sets force = the sum of forces that depend on velocities.
-  void velocity_forces(const State& state, double time, Vertices& force) const;
+  void sum_velocity_forces(const State& state, double time, Vertices& force) const;
   /// Records the mean of velocity-dependent forces in the step [N].
-  void note(const Vertices& velocity_forces);
+  void record_velocity_force(const Vertices& mean);
 
   /// Returns the mean force in the last step, as far as evaluated and recorded, for the energy balance [N].
   [[nodiscard]] const Vertices& push() const { return *push_; }

@@ -141,7 +141,7 @@ struct Timed : Base {
 struct TimedForce final : Timed<Force> {
   using Timed::Timed;
   [[nodiscard]] bool constant() const override { return inner->constant(); }
-  [[nodiscard]] bool velocity_forces() const override { return inner->velocity_forces(); }
+  [[nodiscard]] bool depends_on_velocity() const override { return inner->depends_on_velocity(); }
   [[nodiscard]] bool of_contact() const override { return inner->of_contact(); }
   void add(const State& state, double time, Vertices& force) const override {
     const Stopwatch watch(seconds);

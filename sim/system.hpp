@@ -25,7 +25,7 @@ struct Force {
   /// Returns true if it is the same at every time and in every state.
   [[nodiscard]] virtual bool constant() const { return false; }
   /// Returns true if it depends on velocities.
-  [[nodiscard]] virtual bool velocity_forces() const { return false; }
+  [[nodiscard]] virtual bool depends_on_velocity() const { return false; }
   /// Returns true if it pushes the cloth away from an obstacle, see ColliderMotion.
   [[nodiscard]] virtual bool of_contact() const { return false; }
   /// Adds the force on every vertex at a time [s] [N].

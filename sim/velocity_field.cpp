@@ -21,14 +21,14 @@ void VelocityFields::find(const State& state, double time, Vertices& sum) const 
 
 FieldSlopes::FieldSlopes(const System& system)
     : fields_(system),
-      position_forces_(static_cast<std::size_t>(system.cloth.vertex_count()), Eigen::Matrix3d::Zero()),
-      velocity_forces_(position_forces_) {}
+      by_position_(static_cast<std::size_t>(system.cloth.vertex_count()), Eigen::Matrix3d::Zero()),
+      by_velocity_(by_position_) {}
 
 void FieldSlopes::find(const State& state, double time) {
   moved_.x = state.x;
   moved_.v = state.v;
-  differentiate(&State::x, time, position_forces_);
-  differentiate(&State::v, time, velocity_forces_);
+  differentiate(&State::x, time, by_position_);
+  differentiate(&State::v, time, by_velocity_);
 }
 
 void FieldSlopes::differentiate(Vertices State::*part, double time, std::vector<Eigen::Matrix3d>& slopes) {
@@ -93,7 +93,7 @@ FieldDrag::FieldDrag(const System& system, double duration, bool bounded)
 }
 
 Matrix3d FieldDrag::drag(std::size_t vertex, double most) const {
-  const Matrix3d g = slopes_.velocity_forces()[vertex] / duration_ + slopes_.position_forces()[vertex];
+  const Matrix3d g = slopes_.by_velocity()[vertex] / duration_ + slopes_.by_position()[vertex];
   if (!g.allFinite()) return Matrix3d::Zero();
   const Matrix3d against = -(g + g.transpose()) / 2;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> parts(against);

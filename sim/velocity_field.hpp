@@ -28,19 +28,17 @@ class FieldSlopes {
   /// Computes the derivatives at a state and a time [s].
   void find(const State& state, double time);
 
-  [[nodiscard]] const std::vector<Eigen::Matrix3d>& position_forces() const {
-    return position_forces_;
-  }  ///< ∂a/∂x [1/s²]
-  [[nodiscard]] const std::vector<Eigen::Matrix3d>& velocity_forces() const {
-    return velocity_forces_;
-  }  ///< ∂a/∂v [1/s]
+  /// Returns ∂a/∂x of each vertex [1/s²].
+  [[nodiscard]] const std::vector<Eigen::Matrix3d>& by_position() const { return by_position_; }
+  /// Returns ∂a/∂v of each vertex [1/s].
+  [[nodiscard]] const std::vector<Eigen::Matrix3d>& by_velocity() const { return by_velocity_; }
 
  private:
   /// Computes the derivatives by one part of a state.
   void differentiate(Vertices State::*part, double time, std::vector<Eigen::Matrix3d>& slopes);
 
   VelocityFields fields_;
-  std::vector<Eigen::Matrix3d> position_forces_, velocity_forces_;
+  std::vector<Eigen::Matrix3d> by_position_, by_velocity_;
   // Scratch:
   State moved_;
   Eigen::VectorXd from_, way_;

@@ -16,7 +16,7 @@ using Index = std::size_t;
 // Initial capacity per vertex; cloth that is not crumpled has fewer pairs.
 constexpr Eigen::Index usual_pairs = 16;
 // Part of the reach that rounding errors of the boxes stay below.
-constexpr double lost = 1e-6;
+constexpr double box_rounding = 1e-6;
 // Features whose pairs are filtered together: enough to fill the lanes, few enough for the cache.
 constexpr std::size_t features_per_block = 16;
 
@@ -62,7 +62,7 @@ Box CollisionCandidates::box(const Triangle& t) const {
 }
 
 void CollisionCandidates::find(const std::vector<Point>& from, const std::vector<Point>& to, double reach) {
-  surround(from, to, mean(to) - mean(from), (0.5 + lost) * reach);
+  surround(from, to, mean(to) - mean(from), (0.5 + box_rounding) * reach);
   triangle_boxes_.resize(triangles_.size());
   for_all(threads_, std::ssize(triangles_),
           [&](Eigen::Index t) { triangle_boxes_[static_cast<Index>(t)] = box(triangles_[static_cast<Index>(t)]); });

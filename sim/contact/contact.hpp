@@ -34,7 +34,7 @@ enum class ContactLaw : unsigned char {
 /// Two features that must stay a distance apart; one or both belong to the cloth. With the relative position
 ///   d(x) = Σ weights[i]·x[vertices[i]] + offset
 /// the contact is the constraint n·d(x) ≥ distance, linear in x, or another ContactLaw. Its force acts on the cloth as
-/// weights[i]·force. A rope of a seam is such a constraint with a negative distance, and a closed seam one on all of d.
+/// weights[i]·force. An open tie of a seam has a negative distance, along which it pulls; a closed one requires d = 0.
 struct ContactConstraint {
   ContactKey key;
   ContactLaw law = ContactLaw::apart;
@@ -106,8 +106,8 @@ struct ContactConstraint {
       if (share != 0) to.row(vertices[i]) += share * impulse.transpose();
     }
   }
-  /// Returns the minimum n·d at the end of the step that its start can keep without a push: where features turn around
-  /// each other, the plane across the normal at the end may cut off their start.
+  /// Returns `distance`, reduced to what the start of the step satisfies: where features turn around each other, the
+  /// plane across the normal at the end may cut off their start.
   [[nodiscard]] double possible_distance() const {
     return std::min(distance, std::max(0.0, start.dot(normal)) + std::max(0.0, distance - before));
   }

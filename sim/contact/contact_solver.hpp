@@ -36,7 +36,7 @@ class ContactSolver {
   /// it does has them anyway.
   void include_limits() { with_limits_ = true; }
 
-  /// Begins the multipliers of the step with the forces of the last one, where contacts stay near.
+  /// Sets the multipliers of contacts that persist to the forces of the last step.
   /// @param forces sorted by key, see forces()
   void expect(const std::vector<ContactForce>& forces);
 

@@ -24,7 +24,7 @@ void move_rigidly(const std::vector<std::array<int, 4>>& groups, bool all, const
 
 /// Contact for explicit methods, by impulses that change the positions at the end of a step. Contacts and contact law
 /// are those of ContactSolver. A step that would reach y = x + h·v ends at
-///   x' = y + Σ wᵢ/m·f,   f along the normal ≥ 0, n·d(x') ≥ distance, one of both an equation, |f across| ≤ µ·(n·f),
+///   x' = y + Σ wᵢ/m·f,   0 ≤ n·f ⊥ n·d(x') − distance ≥ 0, |f across| ≤ µ·(n·f),
 /// the minimum of ½(x' − y)ᵀM(x' − y) under the contacts. Projected Gauss-Seidel finds f [kg·m] one contact at a time.
 /// If this moves vertices, contacts are found again at the new positions until none is missed. The start of the step
 /// meets all contacts (ContactConstraint::possible_distance). Otherwise several could exclude every motion, and their

@@ -29,13 +29,13 @@ class FieldForce final : public Force {
   FieldForce(const Field& field, const Eigen::VectorXd& masses)
       : formulas_(field.acceleration),
         masses_(masses),
-        constant_(!formulas_.position_forces() && !formulas_.of_time() && !formulas_.velocity_forces()),
-        velocity_forces_(formulas_.velocity_forces()),
-        bound_(field.stiffness_bound.value_or(formulas_.position_forces() ? std::numeric_limits<double>::infinity()
-                                                                          : 0)) {}
+        constant_(!formulas_.uses_position() && !formulas_.uses_time() && !formulas_.uses_velocity()),
+        by_velocity_(formulas_.uses_velocity()),
+        bound_(
+            field.stiffness_bound.value_or(formulas_.uses_position() ? std::numeric_limits<double>::infinity() : 0)) {}
 
   [[nodiscard]] bool constant() const override { return constant_; }
-  [[nodiscard]] bool velocity_forces() const override { return velocity_forces_; }
+  [[nodiscard]] bool depends_on_velocity() const override { return by_velocity_; }
   [[nodiscard]] double stiffness_bound() const override { return bound_; }
 
   void add(const State& state, double time, Vertices& force) const override {
@@ -49,7 +49,7 @@ class FieldForce final : public Force {
  private:
   FormulaField formulas_;
   Eigen::VectorXd masses_;
-  bool constant_, velocity_forces_;
+  bool constant_, by_velocity_;
   double bound_;  // infinite if unknown
 };
 
@@ -83,7 +83,7 @@ void Field::describe(Keys& keys) {
 void Field::check(const SimulationSettings& settings, const ProblemSink& problem) const {
   const Method method = settings.integrator.method;
   if (stiffness_bound || !is_explicit(method) || settings.integrator.allow_unstable) return;
-  if (!FormulaField(acceleration).position_forces()) return;
+  if (!FormulaField(acceleration).uses_position()) return;
   problem(
       "acceleration",
       fmt::format(
@@ -94,7 +94,7 @@ void Field::check(const SimulationSettings& settings, const ProblemSink& problem
 
 void Field::install(System& system) const {
   auto force = std::make_unique<FieldForce>(*this, system.cloth.masses);
-  auto& list = force->velocity_forces() ? system.fields : system.forces;
+  auto& list = force->depends_on_velocity() ? system.fields : system.forces;
   list.push_back(std::move(force));
 }
 

@@ -48,7 +48,7 @@ class AirForce final : public Force {
     thirds_.resize(triangle_count(), 3);
   }
 
-  [[nodiscard]] bool velocity_forces() const override { return true; }
+  [[nodiscard]] bool depends_on_velocity() const override { return true; }
 
   void add(const State& state, double time, Vertices& force) const override {
     for_ranges(threads_, slip_.rows(), [&](Eigen::Index first, Eigen::Index count) {

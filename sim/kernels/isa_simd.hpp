@@ -1,12 +1,10 @@
 #pragma once
 
-// Loops over plain arrays of numbers. Only for inclusion by kernels_isa.cpp, see there.
+// Vectors of DRAPE_LANES doubles, and loops over plain arrays. Only for inclusion by kernels_isa.cpp, see there.
 
 #include <cstddef>
 
 #include "sim/kernels/kernels.hpp"
-
-// Vectors of DRAPE_LANES doubles. Only for inclusion by kernels_isa.cpp, see there.
 
 namespace drape {
 namespace {
@@ -50,10 +48,6 @@ struct LaneSum {
     return result;
   }
 };
-
-}  // namespace
-
-namespace {
 
 void add_scaled(std::size_t count, const double* __restrict factor, const double* __restrict from,
                 double* __restrict to) {

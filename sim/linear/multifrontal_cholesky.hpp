@@ -16,9 +16,7 @@ namespace drape {
 /// separating vertices last, and recurses into both halves. On a grid of n vertices the factor then has O(n log n)
 /// entries and takes O(n^1.5) operations, which is optimal (Lipton, Rose and Tarjan 1979).
 /// @param pattern of the matrix
-/// @param places  positions of the rows, n×3 [m]. Coupled rows should be near each other; otherwise the order is valid
-///                but
-///                has more fill
+/// @param places  positions of the rows, n×3 [m]; if coupled rows are far apart, there is more fill
 /// @returns the rows in order, the same for the same arguments
 std::vector<int> dissect(const LowerPattern& pattern, const Vertices& places);
 

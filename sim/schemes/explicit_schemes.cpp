@@ -69,7 +69,7 @@ StepReport SemiImplicitEuler::advance(State& state, StepForces& forces) {
   }
   if (fields_) {
     report.converged = fields_->kick(state.x, start, before_, state.v);
-    forces.note(fields_->force());
+    forces.record_velocity_force(fields_->force());
   }
   system_.correct(state);
   report.converged = system_.move(state) && report.converged;
@@ -88,7 +88,7 @@ namespace {
 
 bool depends_on_velocities(const System& system) {
   return !system.fields.empty() ||
-         std::ranges::any_of(system.forces, [](const auto& force) { return force->velocity_forces(); });
+         std::ranges::any_of(system.forces, [](const auto& force) { return force->depends_on_velocity(); });
 }
 
 }  // namespace
@@ -111,11 +111,10 @@ StepReport Verlet::advance(State& state, StepForces& forces) {
   const double half = system_.step / 2;
   const double middle = system_.time(state.step) + half, end = system_.time(state.step + 1);
   const auto drift = [&] { add_multiple(system_.threads, half, state.v, state.x); };
-  const bool velocity_forces = fields_ || forces.any_of_velocity();
+  const bool by_velocity = fields_ || forces.any_depends_on_velocity();
   StepReport report;
   const bool damped = half_damping_ || (damping_ && DampingKick::acts_in(state.step, system_.substeps));
-  const bool at_once =
-      !velocity_forces && !damped && half_decay_ && system_.filters.empty() && system_.pin_motions.empty();
+  const bool at_once = !by_velocity && !damped && half_decay_ && system_.filters.empty() && system_.pin_motions.empty();
   size_.reset();
   if (at_once) {
     drape::drift(system_.threads, {.h = half, .before = *half_decay_}, state.v, state.x);
@@ -143,20 +142,20 @@ std::int64_t Verlet::advance_at_once(State& state, StepForces& forces, std::int6
   if (!alike_ || springs_.most_steps() == 1 || left == 1) return 0;
   const int count = even_share(left, springs_.most_steps());
   const Drift before{.h = system_.step / 2, .before = *half_decay_}, after{.h = before.h, .after = *half_decay_};
-  const Vertices& force = forces.position_forces(state, system_.time(state.step));
+  const Vertices& force = forces.sum_position_forces(state, system_.time(state.step));
   drift(system_.threads, before, state.v, state.x);
   size_ = springs_.kick_and_drift_times(count, pull_, force, after, before, state.v, state.x);
   return count;
 }
 
 bool Verlet::kick(State& state, double time, StepForces& forces, const Drift& drift) {
-  const bool velocity_forces = fields_ || forces.any_of_velocity();
-  if (velocity_forces) start_v_ = state.v;
-  const Vertices& push = forces.position_forces(state, time);
+  const bool by_velocity = fields_ || forces.any_depends_on_velocity();
+  if (by_velocity) start_v_ = state.v;
+  const Vertices& push = forces.sum_position_forces(state, time);
   const Vertices& force = with_energies(system_, state.x, time, push, force_);
   const double squares = springs_.kick_and_drift(pull_, force, drift, state.v, state.x);
   if (drift.h != 0) size_ = squares;
-  return !velocity_forces || kick_of_velocity(state, time, forces);
+  return !by_velocity || apply_velocity_forces(state, time, forces);
 }
 
 bool Verlet::kick_with_dashpots(State& state, double time, StepForces& forces) {
@@ -174,32 +173,32 @@ bool Verlet::kick_with_dashpots(State& state, double time, StepForces& forces) {
   return found;
 }
 
-bool Verlet::kick_of_velocity(State& state, double time, StepForces& forces) {
-  const bool others = forces.any_of_velocity();
+bool Verlet::apply_velocity_forces(State& state, double time, StepForces& forces) {
+  const bool others = forces.any_depends_on_velocity();
   if (!fields_) {
-    add_of_velocity(state, time, forces);
+    add_velocity_forces(state, time, forces);
     return true;
   }
   before_ = start_v_;
   bool found = fields_->kick(state.x, time, before_, state.v);
   if (others) {
     // Fields and other forces depend on each other. For second order each needs only an estimate of the other.
-    add_of_velocity(state, time, forces);
+    add_velocity_forces(state, time, forces);
     state.v += pull_.asDiagonal() * fields_->force();
     found = fields_->kick(state.x, time, before_, state.v);
   }
-  forces.note(fields_->force());
+  forces.record_velocity_force(fields_->force());
   return found;
 }
 
-void Verlet::add_of_velocity(State& state, double time, StepForces& forces) {
+void Verlet::add_velocity_forces(State& state, double time, StepForces& forces) {
   std::swap(state.v, start_v_);
-  forces.velocity_forces(state, time, force_);
+  forces.sum_velocity_forces(state, time, force_);
   state.v = start_v_ - pull_.asDiagonal() * force_;
-  forces.velocity_forces(state, time, more_force_);
+  forces.sum_velocity_forces(state, time, more_force_);
   force_ = (force_ + more_force_) / 2;
   state.v = start_v_ - pull_.asDiagonal() * force_;
-  forces.note(force_);
+  forces.record_velocity_force(force_);
 }
 
 }  // namespace drape

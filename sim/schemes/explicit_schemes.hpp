@@ -10,8 +10,6 @@
 
 namespace drape {
 
-/// Helpers of the explicit schemes.
-
 /// Returns −h/m of each vertex, 0 on pins [s/kg]: the change of velocity in a step per unit of gradient.
 Eigen::VectorXd explicit_pull(const System& system);
 
@@ -70,9 +68,9 @@ class Verlet final : public Scheme {
   bool kick_with_dashpots(State& state, double time, StepForces& forces);
   /// Adds the effect of velocity-dependent forces to the velocities, which were start_v_ before the kick. Returns true
   /// if the solve for velocity fields converged.
-  bool kick_of_velocity(State& state, double time, StepForces& forces);
-  /// Adds the part of the explicitly evaluated ones.
-  void add_of_velocity(State& state, double time, StepForces& forces);
+  bool apply_velocity_forces(State& state, double time, StepForces& forces);
+  /// Adds the effect of velocity-dependent forces outside of fields, the mean of those at both ends of the kick.
+  void add_velocity_forces(State& state, double time, StepForces& forces);
 
   const System& system_;
   const SpringNetwork& springs_;

@@ -141,7 +141,7 @@ bool FieldKick::kick(const Vertices& x, double time, const Vertices& before, Ver
     missing_ = v + h * acceleration_ - w_;
     if (sloped) {
       for (Eigen::Index i = 0; i < missing_.rows(); ++i) {
-        const Eigen::Matrix3d& slope = slopes_.velocity_forces()[static_cast<std::size_t>(i)];
+        const Eigen::Matrix3d& slope = slopes_.by_velocity()[static_cast<std::size_t>(i)];
         const Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity() - h / 2 * slope;
         missing_.row(i) = matrix.partialPivLu().solve(missing_.row(i).transpose().eval()).transpose();
       }

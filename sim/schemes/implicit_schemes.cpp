@@ -10,7 +10,7 @@ namespace drape {
 
 BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver, bool instantaneous)
     : MinimisingScheme(system, system.step, make_solver, Directions::at_start),
-      of_the_moment_(instantaneous),
+      instantaneous_(instantaneous),
       books_(system, objective_, *solver_) {
   if (!system.contacts.empty() || !system.limits.empty()) contact_.emplace(system);
   if (system.limits.empty()) return;
@@ -73,7 +73,7 @@ double BackwardEuler::residual_force() {
 }
 
 bool BackwardEuler::is_blocked_by_contact(const State& from, const Vertices& x) {
-  contact_->begin(from, system_.time(from.step), system_.time(from.step + 1), of_the_moment_);
+  contact_->begin(from, system_.time(from.step), system_.time(from.step + 1), instantaneous_);
   return contact_->is_blocked(x);
 }
 
@@ -116,7 +116,7 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   const Vertices& force = forces.all(state, system_.time(state.step));
   Vertices steady;
   if (contact_) {
-    contact_->begin(state, system_.time(state.step), system_.time(state.step + 1), of_the_moment_);
+    contact_->begin(state, system_.time(state.step), system_.time(state.step + 1), instantaneous_);
     contact_->expect(state.contact_forces);
     steady = state.x + system_.step * state.v;
     system_.place_pins(system_.time(state.step + 1), steady);
@@ -143,7 +143,7 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
     if (!system_.limits.empty()) state.restraint = nothing_held_;
   }
   if (is_lost()) report.converged = false;
-  if (fields_) forces.note(fields_->end());
+  if (fields_) forces.record_velocity_force(fields_->end());
   books_.end(point_);
   divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
   copy(system_.threads, point_.x, state.x);
@@ -151,7 +151,7 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   // An unconverged solve does not determine a bounce well enough to give it energy. A bounce changes the velocity after
   // the step, and no filter moves the cloth by it.
   if (touched_ && report.converged) {
-    contact_->rebound(of_the_moment_, state.v);
+    contact_->rebound(instantaneous_, state.v);
     state.contact_forces = contact_->forces();
   }
   system_.correct(state);
@@ -221,13 +221,13 @@ StepReport Sdirk2::advance_freely(State& state, StepForces& forces) {
   stage_ = state;
   solve(first, of_step_.early, report);
   if (fields_) of_fields_ = (1 - tableau::gamma) * fields_->end();
-  if (forces.any_of_velocity()) find_second_forces(first, forces);
+  if (forces.any_depends_on_velocity()) find_second_forces(first, forces);
   stage_.x = state.x + tableau::rest * (stage_.x - state.x);
   stage_.v = state.v + tableau::rest * (stage_.v - state.v);
   solve(end, of_step_.late, report);
   if (fields_) {
     of_fields_ += tableau::gamma * fields_->end();
-    forces.note(of_fields_);
+    forces.record_velocity_force(of_fields_);
   }
   state.v = stage_.v;
   if (system_.filters.empty()) {
@@ -257,19 +257,19 @@ void Sdirk2::find_forces(const State& state, StepForces& forces) {
   stage_ = state;
   add_multiple(system_.threads, half, state.v, stage_.x);
   system_.place_pins(start + half, stage_.x);
-  force_ = forces.position_forces(stage_, start + half);
-  if (!forces.any_of_velocity()) return;
-  forces.velocity_forces(state, start, of_start_);
+  force_ = forces.sum_position_forces(stage_, start + half);
+  if (!forces.any_depends_on_velocity()) return;
+  forces.sum_velocity_forces(state, start, of_start_);
   force_ += of_start_;
 }
 
 void Sdirk2::find_second_forces(double time, StepForces& forces) {
   system_.drive_pins(time, stage_.v);
-  forces.velocity_forces(stage_, time, of_stage_);
+  forces.sum_velocity_forces(stage_, time, of_stage_);
   force_ -= of_start_;
   // v₂ contains (1 − γ)h of the first stage's forces; γh of these are added here.
   of_stage_ = tableau::delta * of_start_ + (1 - tableau::delta) * of_stage_;
-  forces.note(of_stage_);
+  forces.record_velocity_force(of_stage_);
   force_ += (of_stage_ - (1 - tableau::gamma) * of_start_) / tableau::gamma;
 }
 

@@ -193,7 +193,7 @@ class BackwardEuler final : public MinimisingScheme {
   /// @param steady positions reached at constant velocities; empty without contacts
   StepReport solve_step(const Vertices& steady, const std::function<bool()>& may_end);
 
-  bool of_the_moment_;
+  bool instantaneous_;
   EnergyBooks books_;
   std::optional<ContactSolver> contact_;   // if the cloth can touch anything
   std::optional<ContactProblem> problem_;  // of contact, created on first use
@@ -270,7 +270,7 @@ class Sdirk2 final : public MinimisingScheme {
 ///
 /// A step may gain a small share of the energy that the motion was given, the initial energy plus the largest work
 /// until then: an error of the discretisation. All steps together may not exceed what was given by more than that. The
-/// watch needs forces whose work is known; it is off for moving pins and for whatever else moves the cloth.
+/// watch needs forces whose work is known; it is off if pins move or forces have unknown work.
 class Sdirk2Guard final : public StabilityGuard {
  public:
   /// Largest gain, as a fraction of the given energy. The homework's motions gain 0.042 in a step of 33 ms.

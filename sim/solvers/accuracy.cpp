@@ -79,10 +79,10 @@ Accuracy::Accuracy(const IntegratorSettings& settings, const System& system, con
 
 double Accuracy::tolerance_at(const StepObjective& objective, const Vertices& x, double start_error) const {
   if (!usual) return tolerance;
-  const auto [whole, by_forces] = objective.longest_way(x);
+  const auto [total, by_forces] = objective.largest_displacement(x);
   const double changed = start_error < by_forces ? std::pow(start_error / by_forces, order) : 1;
   const double of_scheme = share_of_forces.at(static_cast<std::size_t>(order - 1)) * changed * by_forces;
-  return std::max(std::min({of_scheme, share_of_way * whole, limit}), objective.error_rounding());
+  return std::max(std::min({of_scheme, share_of_way * total, limit}), objective.error_rounding());
 }
 
 }  // namespace drape

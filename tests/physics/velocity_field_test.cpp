@@ -198,11 +198,11 @@ TEST(FieldSlopes, AreExactOfQuadraticFields) {
   constexpr double t = 0.7;
   slopes.find(state, t);
   for (const Eigen::Index i : {5, 200, 440}) {
-    Eigen::Matrix3d position_forces, velocity_forces;
-    position_forces << 2 * state.v(i, 1), 0, 0, 0, 0, -1, 0, 2 * state.x(i, 1), 0;
-    velocity_forces << 0, 2 * state.x(i, 0), 3, 2 * state.v(i, 0), 0, 0, 0, 0, t;
-    EXPECT_LT((slopes.position_forces()[static_cast<std::size_t>(i)] - position_forces).norm(), 1e-8);
-    EXPECT_LT((slopes.velocity_forces()[static_cast<std::size_t>(i)] - velocity_forces).norm(), 1e-8);
+    Eigen::Matrix3d by_position, by_velocity;
+    by_position << 2 * state.v(i, 1), 0, 0, 0, 0, -1, 0, 2 * state.x(i, 1), 0;
+    by_velocity << 0, 2 * state.x(i, 0), 3, 2 * state.v(i, 0), 0, 0, 0, 0, t;
+    EXPECT_LT((slopes.by_position()[static_cast<std::size_t>(i)] - by_position).norm(), 1e-8);
+    EXPECT_LT((slopes.by_velocity()[static_cast<std::size_t>(i)] - by_velocity).norm(), 1e-8);
   }
 }
 

@@ -70,7 +70,7 @@ std::uint64_t hash_of(const State& state);
 
 /// Energy history of a simulation, to detect a blow-up or a step that gains energy.
 struct EnergyMemory {
-  double explained = 0;          ///< [J]
+  double explained = 0;          ///< initial energy plus the work of the forces so far [J]
   Vertices checked_at;           ///< positions at the last check, n×3 [m]
   double work = 0;               ///< since the last check; by SDIRK2: since the start, plus the initial energy [J]
   std::optional<double> energy;  ///< kinetic and elastic energy at the last check, for SDIRK2 [J]
