@@ -28,8 +28,8 @@ void run_chained(Simulation& simulation, std::span<const std::int64_t> starts, c
                  std::span<StepObserver* const> observers, const std::stop_token& stop);
 
 /// Simulates each window of a golden motion from its golden state, on several threads, and compares it. Every step is
-/// compared by hash and bodies. The middle and end of a window are also compared by vertex positions. A velocity
-/// difference at the end counts as the distance that it causes within a step. The first window starts from the
+/// compared by hash, bodies and group_means(). The middle and end of a window are also compared by vertex positions. A
+/// velocity difference at the end counts as the distance that it causes within a step. The first window starts from the
 /// simulation's own initial state, to detect changes in it. There a velocity difference counts as the distance that it
 /// causes within the window.
 /// @param tolerance largest distance of a vertex or body from its golden position [m]; 0: all bits must be equal

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cmath>
 #include <fstream>
+#include <random>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -82,6 +83,25 @@ std::vector<double> body_numbers(const Simulation& simulation) {
     for (int axis = 0; axis < 3; ++axis) all.push_back(simulation.state().x(pin, axis));
   }
   return all;
+}
+
+std::vector<double> group_means(const Vertices& x, int groups) {
+  std::vector<double> means(3 * static_cast<std::size_t>(groups));
+  std::vector<double> sizes(static_cast<std::size_t>(groups));
+  std::mt19937 random;  // the standard defines its numbers
+  for (Eigen::Index i = 0; i < x.rows() && groups > 0; ++i) {
+    const std::size_t group = random() % sizes.size();
+    ++sizes[group];
+    for (Eigen::Index axis = 0; axis < 3; ++axis) means[3 * group + static_cast<std::size_t>(axis)] += x(i, axis);
+  }
+  for (std::size_t k = 0; k < means.size(); ++k) means[k] /= std::max(1., sizes[k / 3]);
+  return means;
+}
+
+GoldenStep golden_step(const Simulation& simulation, int groups) {
+  return {.hash = step_hash(simulation),
+          .bodies = body_numbers(simulation),
+          .groups = group_means(simulation.state().x, groups)};
 }
 
 const char* body_kind(const Collider& collider) {

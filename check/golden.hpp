@@ -20,6 +20,7 @@ namespace drape {
 struct GoldenStep {
   std::uint32_t hash = 0;      ///< hash of every bit, see step_hash()
   std::vector<double> bodies;  ///< positions of bodies and pins, see body_numbers(), rounded to RoundingUnits::compared
+  std::vector<double> groups;  ///< see group_means(), rounded to RoundingUnits::compared
 };
 
 /// A window of the golden motion: a state and the steps from it. It ends where the next one begins, apart from the
@@ -77,6 +78,7 @@ struct Golden {
   int vertex_count = 0;
   int row = 1;                         ///< index distance of neighbours in adjacent rows of a grid; 1 for other meshes
   int body_count = 0;                  ///< largest size of GoldenStep::bodies
+  int group_count = 0;                 ///< groups of vertices, see group_means(); 0 in goldens of format 3
   double seconds_per_frame = 0;        ///< scene time from a frame to the next [s]
   std::optional<GoldenFilm> film;      ///< absent in goldens of older versions
   std::optional<GoldenMethod> method;  ///< absent if the scene names one
@@ -98,6 +100,18 @@ std::uint32_t step_hash(const Simulation& simulation);
 /// Returns the positions of all colliders and of the pins (evenly chosen ones of many). Each number has the tolerance
 /// of a vertex coordinate.
 std::vector<double> body_numbers(const Simulation& simulation);
+
+/// Number of groups in newly recorded goldens.
+inline constexpr int group_count = 4;
+
+/// Divides the vertices at random into groups, always in the same way, and returns the mean position of each [m]. A
+/// mean moves no further than the furthest of its vertices. Since the groups are random, the displacements of a
+/// symmetric motion do not cancel.
+/// @returns x, y and z of every group; zeros for a group without vertices
+std::vector<double> group_means(const Vertices& x, int groups);
+
+/// Returns the result of a simulation's last step, not rounded.
+GoldenStep golden_step(const Simulation& simulation, int groups);
 
 /// Returns "sphere", "ground" or "body".
 const char* body_kind(const Collider& collider);

@@ -232,16 +232,16 @@ void write_bodies(WordWriter& writer, const std::vector<double>& bodies, double 
   steady.add(std::move(actual));
 }
 
-std::vector<double> read_bodies(WordReader& reader, const Golden& golden, LinearPredictor& steady) {
-  const auto count = static_cast<std::size_t>(reader.whole(0, golden.body_count));
+/// @param least smallest number of numbers
+std::vector<double> read_bodies(WordReader& reader, int least, int most, double quantum, LinearPredictor& steady) {
+  const auto count = static_cast<std::size_t>(reader.whole(least, most));
   std::vector<std::uint64_t> numbers = steady.next(count);
   for (auto different = reader.whole(0, static_cast<std::int64_t>(count)); different > 0; --different) {
     const auto i = static_cast<std::size_t>(reader.whole(0, static_cast<std::int64_t>(count) - 1));
     numbers[i] += static_cast<std::uint64_t>(reader.whole());
   }
   std::vector<double> bodies;
-  for (const std::uint64_t n : numbers)
-    bodies.push_back(static_cast<double>(static_cast<std::int64_t>(n)) * golden.quanta.compared);
+  for (const std::uint64_t n : numbers) bodies.push_back(static_cast<double>(static_cast<std::int64_t>(n)) * quantum);
   steady.add(std::move(numbers));
   return bodies;
 }
@@ -253,7 +253,7 @@ std::uint64_t most_words(const Golden& golden) {
   const std::uint64_t windows = steps / static_cast<std::uint64_t>(golden.window_steps) + 2;
   const std::uint64_t field = 3 * vertices + vertices / 64 + 1;
   return windows * (3 * field + 3) + golden.frames.size() * field +
-         steps * (3 + 2 * static_cast<std::uint64_t>(golden.body_count));
+         steps * (5 + 2 * static_cast<std::uint64_t>(golden.body_count + 3 * golden.group_count));
 }
 
 }  // namespace
@@ -275,6 +275,11 @@ std::string pack_motion(const Golden& golden) {
   for (const GoldenWindow& window : golden.windows) {
     for (const GoldenStep& step : window.steps) writer.bits(step.hash);
     for (const GoldenStep& step : window.steps) write_bodies(writer, step.bodies, quanta.compared, steady);
+  }
+  LinearPredictor of_groups;
+  for (const GoldenWindow& window : golden.windows) {
+    if (golden.group_count == 0) break;
+    for (const GoldenStep& step : window.steps) write_bodies(writer, step.groups, quanta.compared, of_groups);
   }
   for (const GoldenFrame& frame : golden.frames) fields.write(frame.x, quanta.position);
   return std::string(magic) + pack_words(writer.words());
@@ -308,7 +313,16 @@ void unpack_motion(std::string_view bytes, Golden& golden) {
   LinearPredictor steady;
   for (GoldenWindow& window : golden.windows) {
     for (GoldenStep& step : window.steps) step.hash = static_cast<std::uint32_t>(reader.bits());
-    for (GoldenStep& step : window.steps) step.bodies = read_bodies(reader, golden, steady);
+    for (GoldenStep& step : window.steps)
+      step.bodies = read_bodies(reader, 0, golden.body_count, quanta.compared, steady);
+  }
+  const int group_numbers = 3 * golden.group_count;
+  LinearPredictor of_groups;
+  for (GoldenWindow& window : golden.windows) {
+    if (group_numbers == 0) break;
+    for (GoldenStep& step : window.steps) {
+      step.groups = read_bodies(reader, group_numbers, group_numbers, quanta.compared, of_groups);
+    }
   }
   for (GoldenFrame& frame : golden.frames) frame.x = fields.read(quanta.position);
   if (!reader.at_end()) throw std::invalid_argument("has trailing data");
@@ -339,9 +353,9 @@ class Recorder final : public StepObserver {
 
   void after_step(const Simulation& simulation, const StepReport&, double) override {
     GoldenWindow& window = windows.back();
-    GoldenStep& step = window.steps.emplace_back();
-    step.hash = step_hash(simulation);
-    step.bodies = rounded(body_numbers(simulation), quanta_.compared);
+    GoldenStep& step = window.steps.emplace_back(golden_step(simulation, group_count));
+    step.bodies = rounded(std::move(step.bodies), quanta_.compared);
+    step.groups = rounded(std::move(step.groups), quanta_.compared);
     body_count = std::max(body_count, static_cast<int>(step.bodies.size()));
     const std::int64_t end = starts_[windows.size()], now = simulation.state().step;
     if (now == window.start.step + (end - window.start.step) / 2) {
@@ -486,6 +500,7 @@ std::optional<Golden> record_motion(const LoadedScene& scene, const CheckSetting
   golden.frames_views = views_of_frames(scene, golden.size, golden.frames);
   golden.windows = std::move(recorder.windows);
   golden.body_count = recorder.body_count;
+  golden.group_count = group_count;
   return golden;
 }
 

@@ -304,7 +304,8 @@ CheckShard merge_shards(std::vector<CheckShard> shards, const std::vector<std::f
 
 namespace {
 
-constexpr int format_version = 3;
+constexpr int oldest_format = 3;  // without group means
+constexpr int format_version = 4;
 constexpr int indent = 2;  // spaces per level in the text
 
 template <int n, class T>
@@ -438,6 +439,7 @@ double quantum_from(const Fields& fields, const char* key) {
 Manifest manifest_from(const Fields& fields) {
   constexpr std::int64_t most_steps = 1'000'000'000;  // as a scene's
   constexpr std::int64_t most_bodies = 1'000'000;
+  constexpr std::int64_t most_groups = 1000;
   constexpr std::int64_t any = std::numeric_limits<int>::max();
   Manifest manifest;
   Golden& golden = manifest.golden;
@@ -451,6 +453,9 @@ Manifest manifest_from(const Fields& fields) {
   golden.vertex_count = fields.whole<int>("vertices", 1, any);
   golden.row = fields.whole<int>("row", 1, any);
   golden.body_count = fields.whole<int>("bodies", 0, most_bodies);
+  if (fields.whole<int>("format", oldest_format, format_version) > oldest_format) {
+    golden.group_count = fields.whole<int>("groups", 0, most_groups);
+  }
   golden.seconds_per_frame = fields.positive("seconds_per_frame");
   if (fields.has("film")) golden.film = film_from(fields.object("film"));
   if (fields.has("method")) golden.method = method_from(fields.object("method"));
@@ -470,13 +475,15 @@ Manifest manifest_from(const Fields& fields) {
 void require_own(const Json& json, std::string_view bytes) {
   constexpr std::int64_t any = std::numeric_limits<int>::max();
   const int version = Fields(json, "").whole<int>("format", -any, any);
-  if (version < format_version) {
+  if (version < oldest_format) {
     throw std::invalid_argument(
-        fmt::format("was recorded by an older drape in format {}; this one reads format {}", version, format_version));
+        fmt::format("was recorded by an older drape in format {}; this one reads formats {} and {}", version,
+                    oldest_format, format_version));
   }
   if (version > format_version) {
     throw std::invalid_argument(
-        fmt::format("was recorded by a newer drape in format {}; this one reads format {}", version, format_version));
+        fmt::format("was recorded by a newer drape in format {}; this one reads formats {} and {}", version,
+                    oldest_format, format_version));
   }
   if (sealed_json(json, indent) != bytes) throw std::invalid_argument("has been modified since it was recorded");
 }
@@ -501,6 +508,7 @@ std::string manifest_text(const Golden& golden, const std::string& motion_hash) 
             {"vertices", golden.vertex_count},
             {"row", golden.row},
             {"bodies", golden.body_count},
+            {"groups", golden.group_count},
             {"seconds_per_frame", golden.seconds_per_frame},
             {"quanta", {{"position", quanta.position}, {"velocity", quanta.velocity}, {"compared", quanta.compared}}},
             {"camera", to_json(golden.camera)},

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "check/golden_motion.hpp"
 #include "check/manifest.hpp"
+#include "core/bytes.hpp"
 #include "output/png_encoder.hpp"
 #include "tests/check/checked_scene.hpp"
 #include "tests/support/synthetic_film.hpp"
@@ -218,6 +221,84 @@ TEST_F(CheckScene, SeesWhatActsForAMomentOnly) {
   }
   // The step that begins at 1.5 s is the first without the pin.
   EXPECT_EQ(later.windows.windows[3].other_bits, 76);
+}
+
+/// A tight cloth between held borders. A pulse moves it from 0.02 s to 0.05 s; it is at rest again after 0.2 s, where
+/// positions are stored.
+std::string pulse(const std::string& acceleration) {
+  return R"(
+[cloth]
+mesh = { grid = [6, 6], size = [2.2, 2.2] }
+rest = { grid = [6, 6], size = [2, 2] }
+stiffness = 2000
+pins = ["border"]
+[time]
+step = 0.005
+duration = 0.8
+[integrator]
+method = "implicit"
+[effects.field]
+acceleration = [0, 0, "t > 0.02 && t < 0.05 ? )" +
+         acceleration + R"( : 0"]
+[effects.damping]
+factor = 1e-60
+[video]
+fps = 25
+size = [64, 48]
+[check]
+frames = [0]
+)";
+}
+
+TEST_F(CheckScene, SeesAPulseBetweenStoredPositions) {
+  put(folder_ / "swing.toml", pulse("50"));
+  bless();
+  EXPECT_EQ(check().windows.motion, MotionVerdict::same_bits);
+  put(folder_ / "swing.toml", pulse("0"));
+  const SceneResult other = check();
+  EXPECT_EQ(other.windows.motion, MotionVerdict::changed);
+  EXPECT_NE(sentences(other).at(0).find(" the mean of some vertices is "), std::string::npos) << sentences(other).at(0);
+}
+
+TEST_F(CheckScene, ReadsAGoldenOfFormat3) {
+  bless();
+  Golden golden = read_golden(this->golden());
+  golden.group_count = 0;
+  const std::string motion = pack_motion(golden);
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(manifest_text(golden, checksum_of(motion)));
+  json["format"] = 3;
+  json.erase("groups");
+  put(this->golden() / "motion.bin", motion);
+  put(this->golden() / "manifest.json", sealed_manifest(json.dump()));
+  EXPECT_EQ(check().verdict, SceneVerdict::passed);
+}
+
+TEST(GroupMeans, MoveAsTheVerticesDo) {
+  const Vertices x = Vertices::Random(500, 3);
+  Vertices moved = x;
+  moved.rowwise() += Eigen::RowVector3d(0, 3e-6, 4e-6);
+  const std::vector<double> before = group_means(x, group_count), after = group_means(moved, group_count);
+  for (std::size_t k = 0; k < before.size(); k += 3) {
+    const double distance =
+        std::hypot(after[k] - before[k], after[k + 1] - before[k + 1], after[k + 2] - before[k + 2]);
+    EXPECT_NEAR(distance, 5e-6, 1e-15);
+  }
+}
+
+TEST(GroupMeans, SeeAMotionWhoseMeanIsZero) {
+  // Two halves of a cloth, and alternate vertices, move in opposite directions.
+  for (const int stripe : {1, 250}) {
+    Vertices moved = Vertices::Zero(500, 3);
+    for (int i = 0; i < 500; ++i) moved(i, 2) = i / stripe % 2 == 0 ? 1 : -1;
+    const std::vector<double> means = group_means(moved, group_count);
+    EXPECT_GT(std::abs(*std::ranges::max_element(means, {}, [](double m) { return std::abs(m); })), 0.02) << stripe;
+  }
+}
+
+TEST(GroupMeans, LeaveAGroupWithoutVerticesAtTheOrigin) {
+  const std::vector<double> means = group_means(Vertices::Constant(1, 3, 2.), group_count);
+  EXPECT_EQ(std::ranges::count(means, 2.), 3);
+  EXPECT_EQ(std::ranges::count(means, 0.), 3 * (group_count - 1));
 }
 
 TEST_F(CheckScene, SeesABodyMoveThatTouchesNothing) {

@@ -85,7 +85,7 @@ TEST_F(GoldenFolder, OfAnOlderDrapeIsToBeRecordedAnew) {
   put(folder() / "motion.bin", "drape motion 1\n");
   const std::string message = test::usage_error([&] { read_golden(folder()); });
   EXPECT_EQ(message, (folder() / "manifest.json").string() +
-                         ": was recorded by an older drape in format 1; this one reads format 3; restore it, or "
+                         ": was recorded by an older drape in format 1; this one reads formats 3 and 4; restore it, or "
                          "record it again with drape bless");
   EXPECT_TRUE(has_golden(folder()));  // bless may replace it
 }

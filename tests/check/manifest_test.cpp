@@ -49,8 +49,17 @@ TEST(Manifest, KnowsItsOwnText) {
   text.replace(text.find("\"steps\": 100"), 12, "\"steps\": 101");
   EXPECT_EQ(manifest_refusal(text), "has been modified since it was recorded");
   EXPECT_EQ(manifest_refusal(manifest() + " "), "has been modified since it was recorded");
-  EXPECT_EQ(manifest_refusal("{\"format\": 1}"), "was recorded by an older drape in format 1; this one reads format 3");
-  EXPECT_EQ(manifest_refusal("{\"format\": 4}"), "was recorded by a newer drape in format 4; this one reads format 3");
+  EXPECT_EQ(manifest_refusal("{\"format\": 1}"),
+            "was recorded by an older drape in format 1; this one reads formats 3 and 4");
+  EXPECT_EQ(manifest_refusal("{\"format\": 5}"),
+            "was recorded by a newer drape in format 5; this one reads formats 3 and 4");
+}
+
+TEST(Manifest, MayBeOfFormat3WithoutGroups) {
+  Json json = Json::parse(manifest());
+  json["format"] = 3;
+  json.erase("groups");
+  EXPECT_EQ(read_manifest(sealed_manifest(json.dump())).golden.group_count, 0);
 }
 
 TEST(Manifest, SaysNothingToATerminal) {
@@ -94,7 +103,7 @@ TEST(Manifest, RefusesValuesThatMakeNoSense) {
   EXPECT_NE(manifest_with("/frames/0/frame", -1), "");
   EXPECT_NE(manifest_with("/frames/1/frame", 3), "");  // the same frame twice
   EXPECT_NE(manifest_with("/window_steps", 0), "");
-  EXPECT_NE(manifest_with("/format", 4), "");
+  EXPECT_NE(manifest_with("/format", 5), "");
   EXPECT_EQ(manifest_with("/film", nullptr), "'film.' is not a JSON object");
   EXPECT_NE(manifest_with("/film/fps", 0), "");
   EXPECT_NE(manifest_with("/film/speed", -1), "");

@@ -57,6 +57,7 @@ void expect_same_motion(const Golden& a, const Golden& b) {
     for (std::size_t k = 0; k < p.steps.size(); ++k) {
       EXPECT_EQ(p.steps[k].hash, q.steps[k].hash);
       EXPECT_EQ(p.steps[k].bodies, q.steps[k].bodies);
+      EXPECT_EQ(p.steps[k].groups, q.steps[k].groups);
     }
   }
   ASSERT_EQ(a.frames.size(), b.frames.size());

@@ -23,6 +23,7 @@ inline Golden sample_golden(int vertices, std::int64_t steps, std::int64_t windo
   golden.vertex_count = vertices;
   golden.row = 4;
   golden.body_count = 7;
+  golden.group_count = 2;
   golden.seconds_per_frame = 0.04;
   golden.film = {.fps = 12.5, .speed = 0.5, .size = {640, 480}, .samples = 2};
   if (steps > 0) golden.time = {.steps = std::min<std::int64_t>(20, steps), .ratio = 123.5};
@@ -46,6 +47,8 @@ inline Golden sample_golden(int vertices, std::int64_t steps, std::int64_t windo
       step.hash = static_cast<std::uint32_t>(generator());
       for (int body = 0; body < golden.body_count; ++body) step.bodies.push_back(uniform(generator));
       step.bodies = rounded(step.bodies, golden.quanta.compared);
+      for (int k = 0; k < 3 * golden.group_count; ++k) step.groups.push_back(uniform(generator));
+      step.groups = rounded(step.groups, golden.quanta.compared);
     }
   }
   for (const int frame : frames) {
