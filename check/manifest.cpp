@@ -326,7 +326,8 @@ Json to_json(const Camera& camera) {
           {"elevation", number_or_null(camera.elevation)},
           {"margin", camera.margin},
           {"follow", camera.follow},
-          {"orbit", camera.orbit}};
+          {"orbit", camera.orbit},
+          {"outside", camera.outside}};
 }
 
 Json to_json(const View& view) {
@@ -355,6 +356,7 @@ Camera camera_from(const Fields& fields) {
   camera.margin = fields.number("margin");
   camera.follow = fields.flag("follow");
   camera.orbit = fields.number("orbit");
+  if (fields.has("outside")) camera.outside = fields.number("outside");  // newer than format 3
   return camera;
 }
 
