@@ -360,6 +360,7 @@ std::string headline(const CheckReport& report) {
   tell(SceneVerdict::changed, "changed");
   tell(SceneVerdict::missing, "had no golden");
   tell(SceneVerdict::error, "could not be judged");
+  if (report.missing > 0) problems.push_back(describe_missing(report));
   if (!problems.empty()) return fmt::format("{}", fmt::join(problems, ", "));
   if (const auto updated = count(SceneVerdict::updated); updated > 0) {
     return fmt::format("{} of {} {} recorded again", updated, all, scenes);

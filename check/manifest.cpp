@@ -171,7 +171,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneResult, name, file, golden, verdict, err
                                    size, animation, stills, expected, actual, candidate, rerun_command, accept_command,
                                    seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckReport, command, run_options, accept_command, date, machine, scenes, seconds)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckShard, report, places, scenes, whole)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Shard, number, count)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckShard, report, places, scenes, shard)
 
 std::string pack_shard(const CheckShard& shard) {
   const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(shard);
@@ -247,6 +248,14 @@ bool has_places(const CheckShard& shard) {
 
 }  // namespace
 
+namespace {
+
+std::string program_of(const CheckReport& report) {
+  return shown(fmt::format("drape {}, {}", report.machine.drape, report.machine.compiler));
+}
+
+}  // namespace
+
 std::string seal_shard(std::string cbor) {
   cbor += checksum_of(cbor);
   return cbor;
@@ -266,7 +275,7 @@ CheckShard unpack_shard(std::string_view bytes, const std::filesystem::path& fil
     throw damaged();
   }
   const std::vector<SceneResult>& scenes = shard.report.scenes;
-  if (!has_places(shard)) throw damaged();
+  if (!has_places(shard) || shard.shard.number < 1 || shard.shard.number > shard.shard.count) throw damaged();
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     name_in_folder(scenes[i].name, file, fmt::format("report.scenes[{}].name", i));
     if (!is_sound(scenes[i])) throw damaged();
@@ -274,31 +283,34 @@ CheckShard unpack_shard(std::string_view bytes, const std::filesystem::path& fil
   return shard;
 }
 
-CheckShard merge_shards(std::vector<CheckShard> shards, const std::vector<std::filesystem::path>& files) {
-  CheckShard whole;
-  whole.report = shards.front().report;
-  whole.report.scenes.clear();
-  whole.report.run_options.clear();
-  whole.report.seconds = 0;
-  whole.scenes = shards.front().scenes;
+CheckReport merge_shards(std::vector<CheckShard> shards, const std::vector<std::filesystem::path>& files) {
+  CheckReport whole = shards.front().report;
+  whole.scenes.clear();
+  whole.run_options.clear();
+  whole.seconds = 0;
+  const std::size_t scenes = shards.front().scenes;
+  FoundShards found("check");
   std::map<std::size_t, SceneResult> results;
   for (std::size_t i = 0; i < shards.size(); ++i) {
     CheckReport& report = shards[i].report;
-    if (report.command != whole.report.command || shards[i].scenes != whole.scenes) {
+    if (report.command != whole.command || shards[i].scenes != scenes) {
       throw UsageError(fmt::format("{} and {} are not of one check: {}, and {}", shown(files.front()), shown(files[i]),
-                                   shown(whole.report.command), shown(report.command)));
+                                   shown(whole.command), shown(report.command)));
     }
-    whole.report.seconds += report.seconds;
-    whole.report.date = std::min(whole.report.date, report.date);
-    if (whole.report.machine.renderer.empty()) whole.report.machine.renderer = report.machine.renderer;
+    if (program_of(report) != program_of(whole)) {
+      throw UsageError(fmt::format("{} was made by {}, but {} by {}: one check is made by one program",
+                                   shown(files.front()), program_of(whole), shown(files[i]), program_of(report)));
+    }
+    if (!found.add(shards[i].shard, files[i])) continue;
+    whole.seconds += report.seconds;
+    whole.date = std::min(whole.date, report.date);
+    if (whole.machine.renderer.empty()) whole.machine.renderer = report.machine.renderer;
     for (std::size_t s = 0; s < report.scenes.size(); ++s) {
       results.emplace(shards[i].places[s], std::move(report.scenes[s]));
     }
   }
-  for (auto& [place, result] : results) {
-    whole.places.push_back(place);
-    whole.report.scenes.push_back(std::move(result));
-  }
+  whole.missing = scenes - results.size();
+  for (auto& [place, result] : results) whole.scenes.push_back(std::move(result));
   return whole;
 }
 

@@ -12,6 +12,7 @@
 
 #include "check/golden.hpp"
 #include "check/report.hpp"
+#include "run/shard.hpp"
 
 namespace drape {
 using Json = nlohmann::ordered_json;
@@ -70,10 +71,7 @@ struct CheckShard {
   CheckReport report;
   std::vector<std::size_t> places;  ///< positions of the report's scenes among all, ascending
   std::size_t scenes = 0;           ///< total number of scenes
-  bool whole = true;                ///< false: one of several shards, with its own scenes only
-
-  /// Returns the number of scenes that are missing from the report.
-  [[nodiscard]] std::size_t missing() const { return whole ? scenes - places.size() : 0; }
+  Shard shard;                      ///< one of several shards has its own scenes only
 };
 
 /// Serialises a shard with its pictures and a checksum (CBOR, RFC 8949).
@@ -86,10 +84,10 @@ std::string seal_shard(std::string cbor);
 /// @throws UsageError if the bytes are damaged, or name anything outside the report's folder
 CheckShard unpack_shard(std::string_view bytes, const std::filesystem::path& file);
 
-/// Merges shards of one check, with the scenes in order; duplicate scenes come from the first shard.
+/// Merges shards of one check, with the scenes in order. Of several shards with the same number, only the first counts.
 /// @param files of the shards, for messages
-/// @throws UsageError if they belong to different checks
-CheckShard merge_shards(std::vector<CheckShard> shards, const std::vector<std::filesystem::path>& files);
+/// @throws UsageError if they belong to different checks or programs, or have different numbers of shards
+CheckReport merge_shards(std::vector<CheckShard> shards, const std::vector<std::filesystem::path>& files);
 
 /// The contents of manifest.json.
 struct Manifest {

@@ -19,7 +19,13 @@
 namespace drape {
 
 bool CheckReport::passed() const {
-  return std::ranges::all_of(scenes, [](const SceneResult& scene) { return scene.passed(); });
+  return missing == 0 && std::ranges::all_of(scenes, [](const SceneResult& scene) { return scene.passed(); });
+}
+
+std::string describe_missing(const CheckReport& report) {
+  if (report.missing == 0) return {};
+  return fmt::format("{} of {} scenes are in none of the shards", report.missing,
+                     report.scenes.size() + report.missing);
 }
 
 std::string describe_ignored(const SceneResult& scene) {
@@ -318,6 +324,7 @@ std::string json_report(const CheckReport& report) {
   for (const SceneResult& scene : report.scenes) scenes.push_back(to_json(scene));
   const Json json{{"format", 1},
                   {"passed", report.passed()},
+                  {"missing", report.missing},
                   {"command", full_command(report)},
                   {"date", report.date},
                   {"seconds", report.seconds},
@@ -405,11 +412,24 @@ void write(tinyxml2::XMLPrinter& xml, const Case& test) {
   xml.CloseElement();
 }
 
+/// Writes an error for the scenes that are missing.
+void write_missing(tinyxml2::XMLPrinter& xml, const CheckReport& report) {
+  xml.OpenElement("testcase");
+  xml.PushAttribute("classname", "drape check");
+  xml.PushAttribute("name", "shards");
+  xml.PushAttribute("time", "0.000");
+  xml.OpenElement("error");
+  xml.PushAttribute("message", describe_missing(report).c_str());
+  xml.CloseElement();
+  xml.CloseElement();
+}
+
 }  // namespace
 
 std::string junit_report(const CheckReport& report) {
   std::vector<Case> cases;
-  int failures = 0, errors = 0;
+  const int missing = report.missing > 0 ? 1 : 0;
+  int failures = 0, errors = missing;
   for (const SceneResult& scene : report.scenes) {
     for (Case& test : cases_of(scene)) {
       if (!test.failure.empty()) ++(test.is_error() ? errors : failures);
@@ -421,12 +441,13 @@ std::string junit_report(const CheckReport& report) {
   xml.OpenElement("testsuites");
   xml.OpenElement("testsuite");
   xml.PushAttribute("name", "drape check");
-  xml.PushAttribute("tests", static_cast<int>(cases.size()));
+  xml.PushAttribute("tests", static_cast<int>(cases.size()) + missing);
   xml.PushAttribute("failures", failures);
   xml.PushAttribute("errors", errors);
   xml.PushAttribute("time", fmt::format("{:.3f}", report.seconds).c_str());
   xml.PushAttribute("timestamp", report.date.substr(0, report.date.find('Z')).c_str());
   for (const Case& test : cases) write(xml, test);
+  if (missing > 0) write_missing(xml, report);
   xml.CloseElement();
   xml.CloseElement();
   return std::string(xml.CStr()) + "\n";
@@ -452,9 +473,10 @@ std::string github_summary(const CheckReport& report) {
   for (const SceneResult& scene : report.scenes) scenes.push_back(&scene);
   std::ranges::stable_sort(scenes, std::less(), [](const SceneResult* scene) { return scene->passed(); });
   const auto failed = std::ranges::count_if(scenes, [](const SceneResult* scene) { return !scene->passed(); });
-  std::string text = fmt::format("### drape check: {}\n\n",
+  std::string text = fmt::format("### drape check: {}{}{}\n\n",
                                  failed == 0 ? fmt::format("{} scenes are as they were", scenes.size())
-                                             : fmt::format("{} of {} scenes failed", failed, scenes.size()));
+                                             : fmt::format("{} of {} scenes failed", failed, scenes.size()),
+                                 report.missing > 0 ? ", " : "", describe_missing(report));
   text += "| scene | verdict | motion | pictures | what was found |\n|---|---|---|---|---|\n";
   for (const SceneResult* scene : scenes) {
     const Comparison& windows = scene->windows;

@@ -217,8 +217,9 @@ struct CheckReport {
   Machine machine;
   std::vector<SceneResult> scenes;  ///< results in the order of the command line
   double seconds = 0;
+  std::size_t missing = 0;  ///< number of scenes in shards that were not merged
 
-  /// Returns true if every scene was judged, had a golden, and passed.
+  /// Returns true if every scene was judged, had a golden, and passed, and none is missing.
   [[nodiscard]] bool passed() const;
 };
 
@@ -226,6 +227,9 @@ struct CheckReport {
 inline std::string full_command(const CheckReport& report) {
   return report.typed_command.empty() ? report.command + report.run_options : report.typed_command;
 }
+
+/// Returns "2 of 5 scenes are in none of the shards"; empty if none is missing.
+std::string describe_missing(const CheckReport& report);
 
 /// Returns "2.1 % of the picture and frame 40 are ignored"; empty if nothing is.
 std::string describe_ignored(const SceneResult& scene);

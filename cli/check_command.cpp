@@ -10,6 +10,7 @@
 #include "check/candidate.hpp"
 #include "check/check_scene.hpp"
 #include "check/golden.hpp"
+#include "check/manifest.hpp"
 #include "check/name_difference.hpp"
 #include "cli/command_line.hpp"
 #include "cli/inputs.hpp"
@@ -218,6 +219,13 @@ void require_golden_values(const CheckOptions& options) {
   throw UsageError("--update all records what the scene files say: edit them instead of giving " + options.overrides);
 }
 
+/// @throws OutputError
+void remove_file(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::remove(file, error);
+  if (error) throw OutputError(fmt::format("cannot remove {}: {}", shown(file), error.message()));
+}
+
 ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   const auto begin = std::chrono::steady_clock::now();
   const Shard shard = arguments.shard.empty() ? Shard{} : parse_shard(arguments.shard);
@@ -238,8 +246,9 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
     recorded.push_back(std::move(opened.recorded));
   }
   for (const char* file : check_report_files) const PartialFile writable(folder / file);  // throws if not writable
+  remove_file(folder / check_mark);  // an older result must not count if this check is killed
 
-  CheckShard part{.report = {}, .places = places_of(scenes, shard), .scenes = scenes.size(), .whole = shard.whole()};
+  CheckShard part{.report = {}, .places = places_of(scenes, shard), .scenes = scenes.size(), .shard = shard};
   CheckReport& report = part.report;
   report.date = utc_now();
   report.command = "drape check";
@@ -256,7 +265,9 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   }
   report.machine = this_machine(report.machine.renderer);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return conclude_check(part, folder, arguments.style, common, verdicts);
+  const ExitCode code = conclude_check(report, folder, arguments.style, common, verdicts);
+  if (!shard.whole()) write_file_atomically(folder / check_mark, pack_shard(part));
+  return code;
 }
 
 void add_limits(CLI::App& sub, CheckArguments& arguments) {

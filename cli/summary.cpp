@@ -304,14 +304,13 @@ std::string colored(const SceneResult& result, const CommonOptions& common) {
   return line.substr(0, at + 2) + inked(verdict, ink_of(result.verdict), where) + line.substr(at + 2 + verdict.size());
 }
 
-void write_reports(const CheckShard& shard, const std::filesystem::path& folder, FigureStyle style) {
+void write_reports(const CheckReport& report, const std::filesystem::path& folder, FigureStyle style) {
   const auto& [html, json, junit] = check_report_files;
-  write_html_report(shard.report, folder / html);
-  write_file_atomically(folder / json, json_report(shard.report));
-  write_file_atomically(folder / junit, junit_report(shard.report));
-  if (!shard.whole) write_file_atomically(folder / check_mark, pack_shard(shard));
-  write_frame_files(shard.report, folder);
-  if (const std::string missing = write_diagrams(shard.report, folder, style); !missing.empty()) spdlog::debug(missing);
+  write_html_report(report, folder / html);
+  write_file_atomically(folder / json, json_report(report));
+  write_file_atomically(folder / junit, junit_report(report));
+  write_frame_files(report, folder);
+  if (const std::string missing = write_diagrams(report, folder, style); !missing.empty()) spdlog::debug(missing);
 }
 
 /// Writes the job summary and annotations at the scenes' files, under GitHub Actions.
@@ -354,14 +353,14 @@ void tell(const SceneResult& result, const CommonOptions& common, ResultPrinter&
   if (const std::string& by = result.checked_on.renderer; !by.empty()) spdlog::debug("drawn by {}", by);
 }
 
-ExitCode conclude_check(const CheckShard& shard, const std::filesystem::path& folder, FigureStyle style,
+ExitCode conclude_check(const CheckReport& report, const std::filesystem::path& folder, FigureStyle style,
                         const CommonOptions& common, ResultPrinter& verdicts) {
-  write_reports(shard, folder, style);
+  write_reports(report, folder, style);
   if (!common.quiet) verdicts.print(shown(folder / check_report_files.front()));
-  tell_github(shard.report, verdicts);
-  ExitCode code = exit_code(shard.report);
-  if (const std::size_t missing = shard.missing(); missing > 0) {
-    spdlog::error("{} of {} scenes are in none of the shards", missing, shard.scenes);
+  tell_github(report, verdicts);
+  ExitCode code = exit_code(report);
+  if (report.missing > 0) {
+    spdlog::error(describe_missing(report));
     code = ExitCode::interrupted;
   }
   if (verdicts.reason().empty()) return code;

@@ -76,7 +76,7 @@ std::string accept_command(const std::filesystem::path& report);
 
 /// Writes the report of a check, or of one shard, and the summary for GitHub Actions.
 /// @returns the highest code of all scenes; interrupted if scenes are missing
-ExitCode conclude_check(const CheckShard& shard, const std::filesystem::path& folder, FigureStyle style,
+ExitCode conclude_check(const CheckReport& report, const std::filesystem::path& folder, FigureStyle style,
                         const CommonOptions& common, ResultPrinter& verdicts);
 
 /// Writes the report of a sweep and prints a summary.

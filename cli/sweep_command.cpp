@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -256,21 +257,21 @@ CheckShard read_shard(const fs::path& part) {
 ExitCode merge_checks(const std::vector<fs::path>& parts, const StudyFiles& to, const CommonOptions& common) {
   const fs::path folder = to.folder;
   std::vector<CheckShard> shards;
-  std::vector<std::pair<fs::path, std::string>> found;  // parts and their scenes
+  std::map<std::string, fs::path> found;  // the first part with a scene, by the scene's name
   for (const fs::path& part : parts) {
     shards.push_back(read_shard(part));
-    for (const SceneResult& result : shards.back().report.scenes) found.emplace_back(part, result.name);
+    for (const SceneResult& result : shards.back().report.scenes) found.emplace(result.name, part);
   }
-  CheckShard whole = merge_shards(std::move(shards), parts);
-  for (const auto& [part, name] : found) require_own_candidate(folder, name);
-  for (const auto& [part, name] : found) {
+  CheckReport whole = merge_shards(std::move(shards), parts);
+  for (const auto& [name, part] : found) require_own_candidate(folder, name);
+  for (const auto& [name, part] : found) {
     if (interrupted()) return ExitCode::interrupted;
     take_over(part, folder, name);
   }
   ResultPrinter verdicts;
-  for (SceneResult& result : whole.report.scenes) {
+  for (SceneResult& result : whole.scenes) {
     if (result.has_candidate()) {
-      whole.report.accept_command = accept_command(folder);
+      whole.accept_command = accept_command(folder);
       result.accept_command = accept_command(folder) + " " + shell_word(result.name);
     }
     tell(result, common, verdicts);

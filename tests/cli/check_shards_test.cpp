@@ -69,6 +69,29 @@ TEST(CheckShards, AndJobsFindWhatOneCheckFinds) {
   EXPECT_EQ(drape(folder, "check b.toml").code, 0);
 }
 
+TEST(CheckShards, OfAnEarlierCheckDoNotCount) {
+  const SceneFolder folder;
+  write_scenes(folder);
+  ASSERT_LE(drape(folder, "check a.toml b.toml --report r --shard 1/2").code, 1);
+  ASSERT_TRUE(fs::exists(folder.path("r/shard-1-of-2/check.cbor")));
+  // A folder in the place of a diagram ends the check early.
+  folder.write("r/shard-1-of-2/a/motion.svg/in-the-way", "");
+  folder.write("r/shard-1-of-2/b/motion.svg/in-the-way", "");
+  EXPECT_EQ(drape(folder, "check a.toml b.toml --report r --shard 1/2").code, 4);
+  EXPECT_FALSE(fs::exists(folder.path("r/shard-1-of-2/check.cbor")));
+}
+
+TEST(CheckShards, OfAnotherNumberAreNotMerged) {
+  const SceneFolder folder;
+  write_scenes(folder);
+  drape(folder, "check a.toml b.toml --report r --shard 1/2");
+  drape(folder, "check a.toml b.toml --report r --shard 1/1");
+  drape(folder, "check a.toml b.toml --report r --shard 2/3");
+  const Finished refused = drape(folder, "merge r");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.text.find("are not of one check"), std::string::npos) << refused.text;
+}
+
 TEST(CheckShards, OfOtherScenesAreNotMerged) {
   const SceneFolder folder;
   for (const char* name : {"a.toml", "b.toml", "c.toml"}) folder.write(name, scene);
