@@ -21,6 +21,7 @@
 #include "drape/scene/scene.hpp"
 #include "drape/sim/settings.hpp"
 #include "drape/sim/simulation.hpp"
+#include "run/frame_source.hpp"
 #include "run/outputs.hpp"
 #include "scene/motion_scene.hpp"
 
@@ -76,7 +77,7 @@ class SceneCheck {
     if (options_.update == UpdateMode::none || overridden()) {
       add(FindingKind::no_golden);
     } else if (options_.update == UpdateMode::missing) {
-      bless_scene(scene_, settings_, options_.backend, stop_, progress_, recorded_);
+      bless_scene(scene_, scene_.check, options_.backend, stop_, progress_, recorded_);
       add(FindingKind::first_golden);
     } else {
       update(FindingKind::recorded);
@@ -84,7 +85,7 @@ class SceneCheck {
   }
 
   void update(FindingKind what) {
-    const auto blessing = bless_scene(scene_, settings_, options_.backend, stop_, progress_, recorded_);
+    const auto blessing = bless_scene(scene_, scene_.check, options_.backend, stop_, progress_, recorded_);
     if (!blessing) return;
     result_.verdict = SceneVerdict::updated;
     add(what);
@@ -317,11 +318,23 @@ class SceneCheck {
     if (!stop_.stop_requested() && !overridden()) keep_candidate();
   }
 
+  /// Returns the scene's own settings, without the command line's changes. Frames named when the golden was recorded
+  /// stay, as far as the film has them.
+  [[nodiscard]] CheckSettings settings_to_record() const {
+    CheckSettings settings = scene_.check;
+    if (!settings.frames.empty()) return settings;
+    const int last = FilmExtent(scene_.video, scene_.simulation.step, scene_.step_count(), std::nullopt).frames.last;
+    for (const GoldenFrame& frame : golden_.frames) {
+      if (frame.why == named_frame && frame.frame <= last) settings.frames.push_back(frame.frame);
+    }
+    return settings;
+  }
+
   /// Stores the recording that bless would make. If the motion diverges, there is nothing to accept.
   void keep_candidate() {
     std::optional<Recording> recording;
     try {
-      recording = record_scene(scene_, settings_, options_.backend, stop_, progress_, recorded_);
+      recording = record_scene(scene_, settings_to_record(), options_.backend, stop_, progress_, recorded_);
     } catch (const DivergedError& diverged) {
       add(FindingKind::no_candidate, diverged.what());
     }

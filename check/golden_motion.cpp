@@ -435,7 +435,7 @@ std::optional<RecordPlan> plan_recording(const LoadedScene& scene, const CheckSe
       throw UsageError(fmt::format("{}: frame {} cannot be compared: the film ends with frame {}",
                                    shown(scene.source.file), frame, film.frames.last));
     }
-    plan.frames.push_back({frame, "named by the scene"});
+    plan.frames.push_back({frame, named_frame});
   }
   if (!plan.frames.empty()) return plan;
   const std::optional<FilmFacts> facts = survey_motion(scene, plan.window_steps, plan.quanta, stop, progress, recorded);

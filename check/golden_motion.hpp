@@ -40,6 +40,9 @@ void unpack_motion(std::string_view bytes, Golden& golden);
 /// Returns the largest size of a golden's motion [bytes].
 std::uint64_t most_motion_bytes(const Golden& golden);
 
+/// GoldenFrame::why of a frame that drape did not choose.
+inline constexpr const char* named_frame = "named by the scene";
+
 /// A plan for recording a scene's motion.
 struct RecordPlan {
   std::vector<ChosenFrame> frames;  ///< frames to compare, ascending

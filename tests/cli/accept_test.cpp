@@ -68,6 +68,24 @@ TEST_F(Accept, EverythingPassesAfterwards) {
   expect_refused("accept out/check", "out/check: there is nothing to accept: this check found no scene changed");
 }
 
+TEST_F(Accept, KeepsTheGoldensToleranceAndFrames) {
+  const auto without_frames = [](const std::string& look) {
+    std::string text = scene(look);
+    return text.erase(text.find("frames = "), std::string("frames = [0, 5, 10]\n").size());
+  };
+  folder_.write("a.toml", without_frames(""));
+  ASSERT_EQ(drape(folder_, "bless a.toml --frames 1,3").code, 0);
+  folder_.write("a.toml", without_frames("color = \"red\"\n"));
+  ASSERT_EQ(drape(folder_, "check a.toml --update none --motion-tolerance 1e-3").code, 1);
+  ASSERT_EQ(drape(folder_, "accept out/check").code, 0);
+  const auto checked = drape(folder_, "check a.toml --update none");
+  EXPECT_EQ(checked.code, 0) << checked.text;
+  const auto files = golden("a");
+  EXPECT_TRUE(files.contains("frames/0001.png"));
+  EXPECT_TRUE(files.contains("frames/0003.png"));
+  EXPECT_EQ(files.size(), 4U);
+}
+
 TEST_F(Accept, OneSceneLeavesTheOtherAlone) {
   const auto before = golden("a");
   EXPECT_EQ(drape(folder_, "accept out/check b").code, 0);
