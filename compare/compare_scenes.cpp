@@ -106,11 +106,15 @@ std::string difference_text(const KeyDifference& difference, std::size_t scene) 
   return (effect ? difference.key.substr(std::string_view("effects.").size()) : name) + " = " + value;
 }
 
+/// Returns false if a motion is of another program: it has no keys to compare.
+bool have_keys(const std::vector<LoadedScene>& scenes) {
+  return std::ranges::none_of(scenes, [](const LoadedScene& scene) { return scene.source.fields.empty(); });
+}
+
 }  // namespace
 
 std::vector<KeyDifference> differences(const std::vector<LoadedScene>& scenes) {
-  // A motion from another program has no keys to compare.
-  if (std::ranges::any_of(scenes, [](const LoadedScene& scene) { return scene.source.fields.empty(); })) return {};
+  if (!have_keys(scenes)) return {};
   std::vector<std::string> keys;
   for (const LoadedScene& scene : scenes) {
     for (const SceneField& field : scene.source.fields) {
@@ -205,6 +209,7 @@ class Comparison {
         poster_(first_.simulation.cloth.triangles) {
     for (const VertexMatch& match : matches_) comparable_ = comparable_ && match.comparable;
     result_.differences = differences(scenes);
+    result_.keys_known = have_keys(scenes);
     result_.frames_wanted = frames_.count();
     for (const std::string& label : labels(scenes, result_.differences)) {
       const IntegratorSettings& integrator = scenes[result_.motions.size()].simulation.integrator;
@@ -323,7 +328,8 @@ class Comparison {
     result_.times.push_back(time);
     for (std::size_t i = 0; i < moment.size(); ++i) {
       ComparedMotion& motion = result_.motions[i];
-      motion.total_energy.push_back(moment[i]->energies.value_or(Energies{}).total());
+      motion.total_energy.emplace_back();
+      if (knows_energies(i)) motion.total_energy.back() = moment[i]->energies.value_or(Energies{}).total();
       motion.most.emplace_back();
       motion.mean.emplace_back();
       if (!comparable_) continue;
@@ -331,6 +337,10 @@ class Comparison {
       motion.most.back() = away.maxCoeff();
       motion.mean.back() = away.mean();
     }
+  }
+
+  [[nodiscard]] bool knows_energies(std::size_t i) const {
+    return options_.recorded.empty() || !options_.recorded[i] || options_.recorded[i]->header().energies;
   }
 
   /// Returns true if the page shows this frame: evenly spread frames, with the first and the last.

@@ -68,11 +68,11 @@ struct CompareOptions {
 struct ComparedMotion {
   std::string label;
   Statistics statistics;
-  std::string divergence;                         ///< empty unless it diverged
-  std::vector<double> total_energy;               ///< total energy per frame [J]
-  std::vector<std::optional<double>> most, mean;  ///< vertex distances to the first motion, per frame [m]
-  std::string method = {};                        ///< "liu13", "implicit-sdirk2"
-  std::string matched = {};                       ///< matching of its vertices, see VertexMatch::note
+  std::string divergence;                           ///< empty unless it diverged
+  std::vector<std::optional<double>> total_energy;  ///< total energy per frame, if known [J]
+  std::vector<std::optional<double>> most, mean;    ///< vertex distances to the first motion, per frame [m]
+  std::string method = {};                          ///< "liu13", "implicit-sdirk2"
+  std::string matched = {};                         ///< matching of its vertices, see VertexMatch::note
   html::PlayedMotion played = {};  ///< motion for interactive viewing on a page; without frames if there is none
 };
 
@@ -85,6 +85,7 @@ struct CompareResult {
   std::vector<std::vector<OutputFile>> outputs;  ///< the files of each completed output
   std::vector<std::string> problems;             ///< a message for each output that could not be written
   std::string missing;                           ///< a sentence on missing diagrams of the page; empty: none missing
+  bool keys_known = true;                        ///< false: a motion of another program has no keys to compare
 };
 
 /// Returns the frame times of the i-th motion in a comparison, which are those of the first scene's film.

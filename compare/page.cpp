@@ -27,6 +27,9 @@ Markup films(const CompareResult& result, const std::vector<PageMoment>& moments
 }
 
 Markup differences_table(const CompareResult& result) {
+  if (!result.keys_known) {
+    return html::paragraph("A motion of another program has no scene, so the scenes were not compared.");
+  }
   if (result.differences.empty()) return html::paragraph("The scenes are the same.");
   html::Table table{"Keys that differ", {{"key"}}, {}};
   for (const ComparedMotion& motion : result.motions) table.columns.push_back({motion.label});
@@ -60,13 +63,14 @@ Markup figures_table(const CompareResult& result) {
   for (const ComparedMotion& motion : result.motions) {
     const Statistics& s = motion.statistics;
     const bool first = &motion == &result.motions.front(), known = s.steps() > 0;
+    const std::optional<double>& energy = motion.total_energy.back();
     const auto length = [&](const std::optional<double>& metres) -> Markup {
       return first || !metres ? "–" : readable_length(*metres);
     };
     table.rows.push_back({motion.label, known ? fmt::format("{}", s.steps()) : "–",
                           known && s.mean_iterations() > 0 ? fmt::format("{:.2f}", s.mean_iterations()) : "–",
                           s.median_microseconds() > 0 ? fmt::format("{:.1f}", s.median_microseconds()) : "–",
-                          fmt::format("{:.4g}", motion.total_energy.back()), length(largest(motion.most)),
+                          energy ? fmt::format("{:.4g}", *energy) : "–", length(largest(motion.most)),
                           length(motion.mean.back())});
   }
   return html::table(table) + html::note(
@@ -132,7 +136,7 @@ Markup curves(const CompareResult& result) {
 std::vector<NamedChart> comparison_charts(const CompareResult& result) {
   std::vector<NamedChart> charts{
       lines(result, "energy", "Total energy over time", "total energy [J]",
-            [](const ComparedMotion& m, std::size_t k) { return std::optional(m.total_energy[k]); }),
+            [](const ComparedMotion& m, std::size_t k) { return m.total_energy[k]; }),
       lines(result, "distance", "Mean distance of the vertices from those of the first motion", "mean distance [m]",
             [&](const ComparedMotion& m, std::size_t k) {
               return &m == &result.motions.front() ? std::nullopt : m.mean[k];

@@ -81,6 +81,7 @@ std::string pack_header(const MotionHeader& header) {
             {"group", states_in_group}};
   if (!header.cloths.empty()) json["cloths"] = header.cloths;
   if (header.imported) json["imported"] = true;
+  if (!header.energies) json["energies"] = false;
   return pack(json.dump(1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -105,6 +106,7 @@ MotionHeader unpack_header(std::string_view payload) {
     count(json, "group", states_in_group, states_in_group);
     if (json.contains("cloths")) header.cloths = json.at("cloths").get<std::vector<std::string>>();
     header.imported = json.value("imported", false);
+    header.energies = json.value("energies", true);
   } catch (const Json::exception&) {
     throw std::invalid_argument("has a head that is not what it should be");
   }

@@ -47,6 +47,7 @@ struct MotionHeader {
   std::vector<std::string> colliders = {};  ///< kinds of the colliders: "sphere", "ground", "body"
   std::vector<std::string> cloths = {};     ///< names of several cloths, whose energies the rows have
   bool imported = false;                    ///< made by another program: the scene has only its look, no physics
+  bool energies = true;                     ///< false: the energies of the rows are unknown, and stored as 0
 };
 
 /// Returns the version of this program, as written to headers.

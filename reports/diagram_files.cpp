@@ -174,7 +174,9 @@ ResultTable points_table(const NamedChart& named, std::size_t every) {
   for (const html::ChartSeries& series : chart.series) {
     for (const std::size_t i : finite_points(series, every)) {
       const html::ChartPoint& point = series.points[i];
-      std::vector<std::string> cells{shortest(point.x), shortest(point.y)};
+      const std::string x =
+          chart.x_names.empty() ? shortest(point.x) : chart.x_names.at(static_cast<std::size_t>(point.x));
+      std::vector<std::string> cells{x, shortest(point.y)};
       if (!unnamed) cells.insert(cells.begin(), series.name);
       for (const std::size_t end : {0U, 1U}) {
         if (spread) cells.push_back(point.spread ? shortest((*point.spread)[end]) : "");

@@ -325,13 +325,15 @@ std::uint64_t write(const fs::path& file, const LoadedScene& scene, MotionSource
   header.recorded.every = whole ? std::optional<std::int64_t>(1) : std::nullopt;
   header.colliders = collider_kinds(system.colliders_at(0));
   header.imported = true;
+  VelocityEstimator moments(cloth, grid);
+  std::optional<ImportedMoment> first = moments.next();
+  header.energies = first->energies.has_value();
   MotionFileWriter writer(file, header, scene);
   try {
-    VelocityEstimator moments(cloth, grid);
     std::int64_t step = 0;
     for (const std::int64_t own : grid.steps) {
       if (stop.stop_requested()) throw Interrupted();
-      ImportedMoment moment = moments.next();
+      ImportedMoment moment = first ? *std::exchange(first, std::nullopt) : moments.next();
       for (; step <= own; ++step) {
         StepRow row;
         row.step = step;

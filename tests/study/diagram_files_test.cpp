@@ -76,6 +76,13 @@ TEST(DiagramFile, HasItsPointsAsCsv) {
             "\"liu13, \"\"<report>\"\"\",3,5,,\n");
 }
 
+TEST(DiagramFile, NamesThePlacesOfAnAxisWithoutNumbers) {
+  NamedChart named = sample();
+  named.chart.x_names = {"left", "middle", "right", "top"};
+  EXPECT_NE(to_csv(points_table(named)).find("\nliu13,middle,10,,\nliu13,right,100,"), std::string::npos)
+      << to_csv(points_table(named));
+}
+
 TEST(DiagramFile, HasAllItsPointsAsCsvAndNotTooManyForAText) {
   NamedChart many = sample();
   many.chart.series[0].points.clear();

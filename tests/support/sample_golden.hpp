@@ -47,7 +47,7 @@ inline Golden sample_golden(int vertices, std::int64_t steps, std::int64_t windo
       step.hash = static_cast<std::uint32_t>(generator());
       for (int body = 0; body < golden.body_count; ++body) step.bodies.push_back(uniform(generator));
       step.bodies = rounded(step.bodies, golden.quanta.compared);
-      for (int k = 0; k < 3 * golden.group_count; ++k) step.groups.push_back(uniform(generator));
+      for (int number = 0; number < 3 * golden.group_count; ++number) step.groups.push_back(uniform(generator));
       step.groups = rounded(step.groups, golden.quanta.compared);
     }
   }
