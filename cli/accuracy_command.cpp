@@ -117,10 +117,15 @@ AccuracyStudy begun_study(const std::string& folder, const std::string& command)
                                (std::filesystem::path(folder) / runs_name).string(), begun.command));
 }
 
-/// Copies a scene's results from an interrupted study, if present. @returns true if copied
-bool take_over(AccuracyStudy& begun, const std::string& name, AccuracyStudy& study) {
+/// Copies a scene's results from an interrupted study, if present and measured of the same scene. @returns true if
+/// copied
+bool take_over(AccuracyStudy& begun, const std::string& name, const LoadedScene& scene, AccuracyStudy& study) {
   const auto found = std::ranges::find(begun.scenes, name, &SceneAccuracy::name);
   if (found == begun.scenes.end()) return false;
+  if (found->digest != scene.source.digest) {
+    spdlog::warn("{} has changed since it was measured, and is measured again", shown(scene.source.file));
+    return false;
+  }
   study.pictures.push_back(std::move(begun.pictures[static_cast<std::size_t>(found - begun.scenes.begin())]));
   study.scenes.push_back(std::move(*found));
   return true;
@@ -153,7 +158,7 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   return run_study(
       arguments.files, common, [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {
         for (std::size_t i = 0; i < scenes.size(); ++i) {
-          if (take_over(begun, names[i], study)) continue;
+          if (take_over(begun, names[i], scenes[i], study)) continue;
           std::optional<SceneAccuracy> one;
           try {
             one = study_accuracy(names[i], arguments.scenes[i], options, stop, progress);
@@ -163,6 +168,7 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
             continue;
           }
           if (!one) return std::nullopt;
+          one->digest = scenes[i].source.digest;
           std::vector<StudyPicture>& pictures = study.pictures.emplace_back();
           for (const AnimatedBy animated : animations) {
             auto picture = animate_accuracy(*one, animated, arguments.files.folder, options.backend, stop, progress);

@@ -207,14 +207,22 @@ std::string command_line(const ValidationArguments& arguments) {
   return text + (arguments.options.quick ? " --quick" : "");
 }
 
-ExitCode unless_missed(ExitCode code, bool met) { return code == ExitCode::ok && !met ? ExitCode::differs : code; }
+/// Returns the exit code of a report of validation, which may lack runs.
+ExitCode judged(ExitCode code, const ValidationStudy& study) {
+  if (code != ExitCode::ok) return code;
+  if (study.missing() > 0) {
+    spdlog::error("{} of {} runs are missing: --resume measures them", study.missing(), study.planned);
+    return ExitCode::interrupted;
+  }
+  return all_met(study) ? code : ExitCode::differs;
+}
 
 /// Writes the report of existing measurements.
 ExitCode validation_again(const ValidationArguments& arguments, const CommonOptions& common) {
   if (!arguments.options.cases.empty())
     throw UsageError("--report-only measures nothing: it takes no case, but -o with the folder");
   const ValidationStudy study = validation_study(std::filesystem::path(arguments.files.folder) / validation_runs_name);
-  return unless_missed(conclude_study(validation_report(study), arguments.files, common), all_met(study));
+  return judged(conclude_study(validation_report(study), arguments.files, common), study);
 }
 
 /// Measures a shard and stores it for drape merge.
@@ -265,7 +273,7 @@ ExitCode run_validation(const ValidationArguments& arguments, const CommonOption
                                     save();
                                     return validation_report(study);
                                   });
-  return unless_missed(code, all_met(study));
+  return judged(code, study);
 }
 
 }  // namespace
@@ -279,7 +287,7 @@ ExitCode merge_validation_study(const std::vector<std::filesystem::path>& parts,
   if (!merged.missing.empty()) return ExitCode::interrupted;
   write_file_atomically(std::filesystem::path(to.folder) / motions_name, validation_motions(merged.study));
   write_file_atomically(std::filesystem::path(to.folder) / validation_runs_name, validation_runs(merged.study));
-  return unless_missed(conclude_study(validation_report(merged.study), to, common), all_met(merged.study));
+  return judged(conclude_study(validation_report(merged.study), to, common), merged.study);
 }
 
 void add_validation_study(CLI::App& study, const CommonOptions& common, Command& command) {

@@ -110,11 +110,12 @@ struct MotionPoint {
 
 /// The accuracy study of one scene.
 struct SceneAccuracy {
-  std::string name;                  ///< base name of its files
-  std::string scene;                 ///< scene file, as given
-  AccuracyOptions options;           ///< options completed by complete()
-  double step = 0;                   ///< the scene's step length [s]
-  std::string tolerance_unit = "m";  ///< or "N"
+  std::string name;                        ///< base name of its files
+  std::string scene;                       ///< scene file, as given
+  std::optional<std::string> digest = {};  ///< SceneSource::digest; absent in files of older versions
+  AccuracyOptions options;                 ///< options completed by complete()
+  double step = 0;                         ///< the scene's step length [s]
+  std::string tolerance_unit = "m";        ///< or "N"
 
   std::vector<double> apart;            ///< distance of the two references at each time [m]
   std::vector<double> apart_by_step;    ///< the same after every step of the whole motion [m]

@@ -298,6 +298,7 @@ template <class Fields, class Scene>
 requires std::same_as<std::remove_const_t<Scene>, SceneAccuracy>
 void describe(Fields& f, Scene& s) {
   f("file", s.scene);
+  f("digest", s.digest);
   f("step", s.step);
   f("tolerance_unit", s.tolerance_unit);
   f("tolerances", s.options.tolerances);

@@ -358,6 +358,11 @@ void keep_shard(const Shard& shard, std::vector<ValidationRun>& runs) {
 
 }  // namespace
 
+std::size_t ValidationStudy::missing() const {
+  const auto measured = static_cast<std::size_t>(std::ranges::count_if(runs, &ValidationRun::measured));
+  return std::max(planned, measured) - measured;
+}
+
 ValidationStudy plan_validation(const ValidationOptions& options) {
   require_methods(options.methods);
   ValidationStudy study;
@@ -365,6 +370,7 @@ ValidationStudy plan_validation(const ValidationOptions& options) {
   for (const ValidationCase& one : study.cases) plan_case(one, options, study.runs);
   study.shard = options.shard;
   if (!options.shard.whole()) keep_shard(options.shard, study.runs);
+  study.planned = study.runs.size();
   return study;
 }
 

@@ -134,7 +134,11 @@ struct ValidationStudy {
   std::string typed_command = {};   ///< command line as typed; empty: `command`
   std::vector<std::pair<std::string, std::string>> provenance;
   double seconds = 0;
-  Shard shard = {};  ///< the shard of its runs
+  Shard shard = {};         ///< the shard of its runs
+  std::size_t planned = 0;  ///< number of planned runs; 0: unknown, in files of older versions
+
+  /// Returns the number of planned runs that are not measured.
+  [[nodiscard]] std::size_t missing() const;
 
   /// Returns the measured run of a problem with a factor; null if there is none.
   [[nodiscard]] const ValidationRun* run(const std::string& name, const std::string& problem,

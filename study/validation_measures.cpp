@@ -454,6 +454,9 @@ class ValidationReader {
     std::optional<std::string> shard;
     heading("shard", shard);
     if (shard) study_.shard = parse_shard(*shard);
+    std::optional<std::size_t> planned;
+    heading("planned", planned);
+    study_.planned = planned.value_or(0);
     std::vector<std::string> names, values, cases;
     heading("measured_on", names);
     heading("measured_on_value", values);
@@ -501,6 +504,7 @@ std::string validation_runs(const ValidationStudy& study) {
   if (!study.typed_command.empty()) f("typed_command", study.typed_command);
   f("seconds", study.seconds);
   if (!study.shard.whole()) f("shard", study.shard.text());
+  f("planned", study.planned);
   std::vector<std::string> names, values, cases;
   for (const auto& [name, value] : study.provenance) {
     names.push_back(name);
@@ -538,6 +542,26 @@ ValidationStudy validation_study(const std::filesystem::path& file) {
   return study;
 }
 
+namespace {
+
+/// Returns the program that measured a study: version, revision and compiler.
+std::string program_of(const ValidationStudy& study) {
+  std::string program;
+  for (const auto& [name, value] : study.provenance) {
+    if (name == "drape" || name == "Compiler") program += (program.empty() ? "drape " : ", ") + value;
+  }
+  return program;
+}
+
+/// @throws UsageError if the part in a file was measured by another program than the study
+void require_program(const std::filesystem::path& file, const ValidationStudy& part, const ValidationStudy& study) {
+  if (program_of(part) == program_of(study)) return;
+  throw UsageError(fmt::format("{} was made by {}, but the study by {}: one study is made by one program", shown(file),
+                               shown(program_of(part)), shown(program_of(study))));
+}
+
+}  // namespace
+
 MergedValidation merge_validation(const std::vector<std::filesystem::path>& files) {
   MergedValidation merged;
   FoundShards found("study");
@@ -545,13 +569,17 @@ MergedValidation merge_validation(const std::vector<std::filesystem::path>& file
     ValidationStudy part = validation_study(file);
     std::vector<ValidationRun> runs = std::exchange(part.runs, {});
     const double seconds = std::exchange(part.seconds, 0);
+    const std::size_t planned = std::exchange(part.planned, 0);
     const Shard shard = part.shard;
     if (found.empty())
       merged.study = std::move(part);
     else if (part.command != merged.study.command)
       found.fail_as_other(file);
+    else
+      require_program(file, part, merged.study);
     if (!found.add(shard, file)) continue;
     merged.study.seconds += seconds;
+    merged.study.planned += planned;
     std::ranges::move(runs, std::back_inserter(merged.study.runs));
   }
   std::ranges::stable_sort(merged.study.runs, {}, &ValidationRun::place);
@@ -567,6 +595,7 @@ void read_validation_runs(const std::filesystem::path& file, ValidationStudy& st
   if (begun.command != study.command) {
     throw UsageError(fmt::format("{} is of another command: {}", shown(file), begun.command));
   }
+  require_program(file, begun, study);
   study.seconds += begun.seconds;
   if (!begun.typed_command.empty()) study.typed_command = begun.typed_command;
   for (const ValidationRun& run : begun.runs) {

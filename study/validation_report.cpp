@@ -354,6 +354,10 @@ StudyReport validation_report(const ValidationStudy& study) {
   report.headline = met < measured  ? fmt::format("{} of {} cases with known answers are met", met, measured)
                     : measured == 1 ? "The case with known answers is met"
                                     : fmt::format("All {} cases with known answers are met", measured);
+  if (const std::size_t missing = study.missing(); missing > 0) {
+    report.headline = fmt::format("{} of {} runs are missing; {} of the {} measured cases {} met", missing,
+                                  study.planned, met, measured, met == 1 ? "is" : "are");
+  }
   report.answer = StudySection{"Summary", {}, {}, {summary_chart(study)}, {}};
   report.list = StudyList{"cases", summary_table(study)};
   for (const ValidationCase& one : study.cases) {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "core/files.hpp"
 #include "core/text.hpp"

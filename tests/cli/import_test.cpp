@@ -54,6 +54,13 @@ TEST(Import, MakesAMotionThatIsDrawnComparedAndAudited) {
   EXPECT_EQ(drape(folder, "render " + sequence + " --set 'video.size=[64, 48]' -o b.png").code, 0);
   const Finished compared = drape(folder, "compare scene.toml motion.drape --difference -o ab.png");
   EXPECT_EQ(compared.code, 0) << compared.text;
+  // The import knows neither energies nor a scene.
+  EXPECT_EQ(drape(folder, "compare scene.toml motion.drape --frames 0..3 -o page.html").code, 0);
+  const std::string page = test::content(folder.path("page.html"));
+  EXPECT_EQ(page.find("The scenes are the same"), std::string::npos);
+  EXPECT_NE(page.find("A motion of another program has no scene"), std::string::npos);
+  const std::size_t row = page.find("motion</td>");
+  EXPECT_EQ(page.substr(row, page.find("</tr>", row) - row).find(">0<"), std::string::npos);
   const Finished audited = drape(folder, "audit motion.drape");
   EXPECT_EQ(audited.code, 0) << audited.text;
   EXPECT_NE(audited.text.find("masses and springs of an imported motion are not known"), std::string::npos);

@@ -196,6 +196,16 @@ TEST(Study, OfAccuracyGoesOnWhereItWasInterrupted) {
   const std::string resumed = test::content(folder.path() / "results/runs.csv");
   EXPECT_EQ(rows_of(resumed, "a"), rows_of(whole, "a"));
   EXPECT_NE(rows_of(resumed, "b"), "");
+  // An edited scene is measured again.
+  std::string edited = swing;
+  edited.replace(edited.find("stiffness = "), 12, "stiffness = 1");
+  folder.write("b.toml", edited);
+  const Finished changed = drape(folder, command);
+  EXPECT_EQ(changed.code, 0) << changed.text;
+  EXPECT_NE(changed.text.find("b.toml has changed since it was measured"), std::string::npos) << changed.text;
+  const std::string measured = test::content(folder.path() / "results/runs.csv");
+  EXPECT_EQ(rows_of(measured, "a"), rows_of(whole, "a"));
+  EXPECT_NE(rows_of(measured, "b"), rows_of(resumed, "b"));
   const Finished other = drape(folder, command + " --set cloth.stiffness=30");
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.text.find("runs.csv is of another command: drape study accuracy"), std::string::npos) << other.text;
@@ -257,6 +267,20 @@ TEST(Study, OfValidationWritesEverythingAndGoesOn) {
   EXPECT_NE(other.text.find("is of another command: drape study validation rolled-sheet pattern-stiffness"),
             std::string::npos)
       << other.text;
+}
+
+TEST(Study, OfValidationThatWasInterruptedIsNotMet) {
+  const SceneFolder folder;
+  ASSERT_EQ(drape(folder, "study validation pattern-stiffness --quick -o results").code, 0);
+  std::string runs = test::content(folder.path() / "results/runs.csv");
+  const std::size_t at = runs.find("planned,");
+  ASSERT_NE(at, std::string::npos);
+  runs.insert(at + std::string("planned,").size(), "9");
+  folder.write("results/runs.csv", runs);
+  const Finished again = drape(folder, "study validation --report-only -o results");
+  EXPECT_EQ(again.code, 130) << again.text;
+  EXPECT_NE(again.text.find(" runs are missing"), std::string::npos) << again.text;
+  EXPECT_EQ(again.text.find("is met\n"), std::string::npos) << again.text;
 }
 
 TEST(Study, OfValidationNamesWhatIsNotMet) {

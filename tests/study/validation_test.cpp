@@ -257,6 +257,19 @@ TEST_F(ValidationRuns, OfShardsAreThoseOfTheWhole) {
     EXPECT_EQ(merged.study.runs[i].problem, whole.runs[i].problem);
     EXPECT_EQ(merged.study.runs[i].values, whole.runs[i].values);
   }
+  EXPECT_EQ(merged.study.missing(), 0U);
+  EXPECT_EQ(validation_report(merged.study).headline.find("missing"), std::string::npos);
+  ValidationStudy begun = plan({1, 3});
+  begun.runs.front().measured = false;
+  put(path("1.csv"), validation_runs(begun));
+  const ValidationStudy unfinished = merge_validation(files).study;
+  EXPECT_EQ(unfinished.missing(), 1U);
+  EXPECT_TRUE(
+      validation_report(unfinished).headline.starts_with(fmt::format("1 of {} runs are missing; ", whole.runs.size())))
+      << validation_report(unfinished).headline;
+  begun.provenance = {{"drape", "0.0.1, revision 1"}};
+  put(path("1.csv"), validation_runs(begun));
+  expect_usage_error([&] { merge_validation(files); }, "made by drape 0.0.1, revision 1, but the study by ");
   files.pop_back();
   const MergedValidation partly = merge_validation(files);
   ASSERT_EQ(partly.missing.size(), 1U);
