@@ -157,12 +157,29 @@ std::vector<std::string> Records::finish(const Simulation& simulation, const Sta
   return names;
 }
 
+namespace {
+
+/// Restores the last state. Repeats its step first, for the step's estimates, if the state before it is stored.
+/// @returns true if the step was repeated
+bool restore_last(MotionReader& motion, Simulation& simulation) {
+  const std::size_t last = motion.states() - 1;
+  const bool repeats = !motion.header().imported && last > 0 && motion.step(last) - motion.step(last - 1) == 1;
+  if (repeats) {
+    simulation.restore(motion.state(last - 1));
+    simulation.step();
+  }
+  simulation.restore(motion.state(last));
+  return repeats;
+}
+
+}  // namespace
+
 std::vector<std::string> write_records(MotionReader& motion, const Scene& scene, const RecordPaths& paths) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   Records records(paths);
   Statistics statistics;
   Simulation simulation(scene.simulation);
-  simulation.restore(motion.state(motion.states() - 1));
+  const bool repeated = restore_last(motion, simulation);
   std::vector<StepObserver*> observers = records.observers();
   observers.push_back(&statistics);
   for (StepObserver* observer : observers) observer->begin(simulation);
@@ -171,6 +188,7 @@ std::vector<std::string> write_records(MotionReader& motion, const Scene& scene,
     const double time = static_cast<double>(step) * motion.header().step;
     for (StepObserver* observer : observers) observer->replay(motion.row(step), time, unknown);
   }
+  if (repeated) statistics.finish(simulation);
   std::vector<std::string> problems;
   std::vector<std::string> names = records.finish(simulation, statistics, "completed", Ending::complete, problems);
   if (!problems.empty()) throw OutputError(fmt::format("{}", fmt::join(problems, "\n")));

@@ -57,8 +57,8 @@ class Records {
   std::unique_ptr<TraceLog> trace_;
 };
 
-/// Writes the records of a complete motion from its file, without simulating it again. A motion file has no step times:
-/// they are empty in the trace and null in the statistics.
+/// Writes the records of a complete motion from its file. Only the last step is simulated again, for the error
+/// estimates. A motion file has no step times: they are empty in the trace and null in the statistics.
 /// @param scene of the motion
 /// @returns the names of the files written
 /// @throws UsageError  if the motion is damaged

@@ -14,7 +14,7 @@ void EnergyRise::begin(const Simulation& simulation) {
   watches_ = simulation.only_loses_energy();
   from_start_ = simulation.has_push();
   every_ = is_explicit(simulation.settings().integrator.method) ? between_looks : 1;
-  if (watches_ && !first_) note(simulation.energies());
+  if (watches_ && simulation.state().step == 0) note(simulation.energies());
 }
 
 void EnergyRise::after_step(const Simulation& simulation, const StepReport&, double) {

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "drape/scene/scene.hpp"
+#include "run/records.hpp"
 #include "tests/motion/recorded.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/methods.hpp"
@@ -112,6 +114,46 @@ TEST_P(Resumed, RunsHaveRecordsOfTheWholeMotion) {
   ASSERT_EQ(rise.has_value(), whole_rise.has_value());
   if (rise) {
     EXPECT_EQ(rise->of_available, whole_rise->of_available);
+  }
+}
+
+/// A cloth that falls on a ground. Its steps stop at a change, so that few of them have an error estimate.
+const std::string falling_scene =
+    "[cloth]\nmesh = { grid = [6, 6] }\nstiffness = 50\n[time]\nstep = 0.01\nduration = 0.5\n[integrator]\n"
+    "method = \"liu13\"\ntolerance = 1e-3\n[effects.gravity]\n[effects.ground]\nheight = -0.5\n";
+
+/// A fall loses energy on impact: the start of the whole motion has more than any later state.
+TEST(ResumedRun, TellsTheEnergyRiseOfTheWholeMotion) {
+  const SceneFolder folder;
+  const LoadedScene scene = folder.load(falling_scene);
+  const auto whole = record(scene, folder.path("whole.drape")).statistics.energy_rise();
+  record(scene, folder.path("parts.drape"), {}, 45);
+  const auto parts = resume(folder.path("parts.drape")).statistics.energy_rise();
+  ASSERT_TRUE(whole && parts);
+  EXPECT_FALSE(whole->notable());
+  EXPECT_EQ(parts->energy, whole->energy);
+  EXPECT_EQ(parts->of_available, whole->of_available);
+}
+
+TEST(CompleteMotion, HasTheStatisticsOfItsRun) {
+  const SceneFolder folder;
+  for (const std::string& text : {falling_scene, scene_of(all_methods[4], effects_of_scenes().front())}) {
+    const LoadedScene scene = folder.load(text);
+    RunOptions options;
+    options.records.stats = folder.path("run.json");
+    record(scene, folder.path("m.drape"), options);
+    MotionReader motion(folder.path("m.drape"));
+    write_records(motion, scene, {.stats = folder.path("motion.json"), .energies = {}, .positions = {}, .trace = {}});
+    auto run = nlohmann::json::parse(content(folder.path("run.json"))),
+         read = nlohmann::json::parse(content(folder.path("motion.json")));
+    for (auto* of : {&run, &read}) of->erase("step_us"), of->erase("effect_shares");
+    EXPECT_TRUE(run["accuracy"].contains("estimated_error"));
+    const auto error = [](const auto& json) {
+      return json["accuracy"]["estimated_error"]["mean"].template get<double>();
+    };
+    EXPECT_NEAR(error(read), error(run), 1e-3 * error(run)) << text;
+    for (auto* of : {&run, &read}) (*of)["accuracy"].erase("estimated_error");
+    EXPECT_EQ(read, run) << text;
   }
 }
 
