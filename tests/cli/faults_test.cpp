@@ -167,7 +167,7 @@ TEST(Faults, CtrlCAtAnyMomentLeavesAPlayableFilmOrNone) {
     folder.write("scene.toml", scene);
     const double moment = random.between(0, 1.2);
     SCOPED_TRACE(moment);
-    EXPECT_EQ(end_with(start_film(folder), SIGINT, moment), 130);
+    EXPECT_EQ(end_with(start_film(folder), SIGTERM, moment), 130);
     std::vector<std::string> expected{"scene.toml"};
     if (fs::exists(folder.path() / "film.partial.gif")) {
       EXPECT_GT(test::read_gif(folder.path() / "film.partial.gif").delays.size(), 0U);
@@ -191,7 +191,7 @@ TEST(Faults, CtrlCEndsAStepThatWouldTakeForEver) {
     return std::ranges::count_if(names(folder), [](const std::string& name) { return name.ends_with(".png"); });
   };
   while (pictures() < 3 && kill(child, 0) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  EXPECT_EQ(end_with(child, SIGINT, 1), 130);
+  EXPECT_EQ(end_with(child, SIGTERM, 1), 130);
   const auto drawn = pictures();
   EXPECT_GE(drawn, 3);
   EXPECT_EQ(static_cast<std::ptrdiff_t>(test::read_gif(folder.path() / "film.partial.gif").delays.size()), drawn);
@@ -204,7 +204,7 @@ TEST(Faults, CtrlCDrawsWhatWasSimulatedWhereTheCameraLooksAtTheMotion) {
   folder.write("film.gif", "old");
   const pid_t child = start_film(
       folder, {"--set", "cloth.mesh.grid=[40, 40]", "--set", "integrator.method=implicit", "--set", "video.fps=1"});
-  EXPECT_EQ(end_with(child, SIGINT, 4), 130);
+  EXPECT_EQ(end_with(child, SIGTERM, 4), 130);
   EXPECT_EQ(content(folder.path() / "film.gif"), "old");
   EXPECT_GT(test::read_gif(folder.path() / "film.partial.gif").delays.size(), 1U);
 }
@@ -213,7 +213,7 @@ TEST(Faults, CtrlCPutsWhatWasDrawnBesideACompleteFilm) {
   const SceneFolder folder;
   folder.write("scene.toml", scene);
   folder.write("film.gif", "old");
-  EXPECT_EQ(end_with(start_film(folder), SIGINT, 3), 130);
+  EXPECT_EQ(end_with(start_film(folder), SIGTERM, 3), 130);
   EXPECT_EQ(content(folder.path() / "film.gif"), "old");
   EXPECT_GT(test::read_gif(folder.path() / "film.partial.gif").delays.size(), 0U);
   EXPECT_EQ(names(folder), (std::vector<std::string>{"film.gif", "film.partial.gif", "scene.toml"}));
@@ -225,7 +225,7 @@ TEST(Faults, CtrlCDrawsForSomeSecondsAtMost) {
   folder.write("scene.toml", scene.substr(0, scene.find("[camera]")));
   // Simulates several times as many frames as can be drawn after Ctrl-C, even on a busy machine.
   constexpr double long_enough = 6;
-  EXPECT_EQ(end_with(start_film(folder, {"--energies", "energies.csv"}), SIGINT, long_enough), 130);
+  EXPECT_EQ(end_with(start_film(folder, {"--energies", "energies.csv"}), SIGTERM, long_enough), 130);
   const std::string rows = content(folder.path() / "energies.partial.csv");
   const auto steps = std::ranges::count(rows, '\n') - 2;
   EXPECT_LT(test::read_gif(folder.path() / "film.partial.gif").delays.size(), 0.01 * 25 * static_cast<double>(steps));

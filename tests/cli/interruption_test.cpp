@@ -30,6 +30,7 @@ int end_of_process(Work&& work) {
   const pid_t child = fork();
   if (child == 0) {
     alarm(30);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);  // a background job ignores some
     work();
     _exit(0);
   }
@@ -52,6 +53,21 @@ TEST(Interruption, WakesWhoeverWaitsForTheStopAndNeverAsksForSignals) {
                 const std::stop_token stop = interruption().get_token();
                 raise(signal);
                 wait_for(stop);
+              }),
+              0)
+        << signal;
+  }
+}
+
+/// nohup starts programs with SIGHUP ignored, and a shell's background jobs ignore SIGINT.
+TEST(Interruption, LeavesIgnoredSignalsIgnored) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    EXPECT_EQ(end_of_process([&] {
+                std::signal(signal, SIG_IGN);
+                const std::stop_token stop = interruption().get_token();
+                raise(signal);
+                std::this_thread::sleep_for(std::chrono::milliseconds(100));
+                if (stop.stop_requested()) _exit(1);
               }),
               0)
         << signal;

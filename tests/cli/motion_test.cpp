@@ -106,7 +106,7 @@ TEST_P(ManyKills, ComeToTheSameBytes) { expect_same_after_kills(GetParam(), 20);
 TEST(InterruptedRun, SaysHowItGoesOn) {
   const SceneFolder folder;
   folder.write("scene.toml", long_scene(all_methods[4]));
-  const Finished begun = signal_after(folder, "simulate scene.toml --steps 4000 -o m.drape", 0.3, "INT");
+  const Finished begun = signal_after(folder, "simulate scene.toml --steps 4000 -o m.drape", 0.3, "TERM");
   EXPECT_EQ(begun.code, 130);
   EXPECT_NE(begun.text.find("of 4000 steps; m.drape.partial has the motion so far, and drape simulate --resume "
                             "m.drape continues it"),
@@ -127,11 +127,11 @@ TEST(InterruptedRun, GoesOnToTheSameFilms) {
   const SceneFolder folder;
   folder.write("scene.toml", long_scene(all_methods[5]) + "[video]\nsize = [64, 48]\nfps = 2\n");
   ASSERT_EQ(drape(folder, "render scene.toml --steps 2000 -o whole.gif -o whole.npz").code, 0);
-  for (const std::string signal : {"INT", "KILL"}) {
+  for (const std::string signal : {"TERM", "KILL"}) {
     const Finished begun =
         signal_after(folder, "render scene.toml --steps 2000 -o m.drape -o film.gif --checkpoint 0.1", 0.2, signal);
     ASSERT_FALSE(is_there(folder, "m.drape")) << "it was over before: " << begun.text;
-    if (signal == "INT") {
+    if (signal == "TERM") {
       EXPECT_EQ(begun.code, 130);
       EXPECT_NE(begun.text.find("and drape render --resume m.drape -o film.gif continues it"), std::string::npos)
           << begun.text;
@@ -147,7 +147,7 @@ TEST(InterruptedRun, GoesOnToTheSameFilms) {
 TEST(InterruptedRun, DoesNotGoOnWhereItsFilmsCannotBeMade) {
   const SceneFolder folder;
   folder.write("scene.toml", long_scene(all_methods[4]));
-  signal_after(folder, "simulate scene.toml --steps 4000 -o m.drape", 0.1, "INT");
+  signal_after(folder, "simulate scene.toml --steps 4000 -o m.drape", 0.1, "TERM");
   const auto refused = [&](const std::string& arguments, int code = 2) {
     const Finished finished = drape(folder, arguments);
     EXPECT_EQ(finished.code, code) << arguments;

@@ -56,7 +56,7 @@ TEST(SeveralFilms, ThatHaveNotBegunAreNotBegunByAnInterruption) {
     folder.write(name + ".toml", endless + "[video]\nsize = [96, 80]\n[camera]\nposition = [0, -4, 1]\n");
   }
   const Finished run = drape(folder, "render first.toml second.toml third.toml fourth.toml -o '{scene}.gif'",
-                             "timeout --foreground --preserve-status -s INT 3");
+                             "timeout --foreground --preserve-status -s TERM 3");
   EXPECT_EQ(run.code, 130) << run.text;
   EXPECT_NE(run.text.find("drape: interrupted after"), std::string::npos) << run.text;
   EXPECT_EQ(run.text.find("third"), std::string::npos) << run.text;

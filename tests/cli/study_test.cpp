@@ -340,7 +340,7 @@ TEST(Study, ThatIsInterruptedWritesNothing) {
   const SceneFolder folder;
   // In the foreground timeout sends one signal; otherwise two, and the second ends drape at once.
   const Finished finished = drape(folder, "study stability --per-decade 20 -o results",
-                                  "timeout --foreground --preserve-status --signal=INT 3");
+                                  "timeout --foreground --preserve-status --signal=TERM 3");
   EXPECT_EQ(finished.code, 130) << finished.text;
   EXPECT_NE(finished.text.find("interrupted: no report was written"), std::string::npos) << finished.text;
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));

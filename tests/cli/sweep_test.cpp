@@ -63,7 +63,7 @@ TEST(SweepCommand, EndsInOrderOnCtrlC) {
   const Finished finished =
       test::run(folder, "{ " DRAPE_EXECUTABLE
                         " sweep a.toml --steps 1000000 -o out & p=$!; until [ -e out/sweep.json ]; do "
-                        "sleep 0.01; done; sleep 0.3; kill -INT $p; wait $p; }");
+                        "sleep 0.01; done; sleep 0.3; kill -TERM $p; wait $p; }");
   EXPECT_EQ(finished.code, 130) << finished.text;
   EXPECT_NE(finished.text.find("--resume continues"), std::string::npos) << finished.text;
   EXPECT_EQ(rows(folder, "out").size(), 17U);
@@ -89,7 +89,7 @@ TEST(SweepCommand, MergingLeavesNothingHiddenOnCtrlC) {
   for (const char* delay : {"0.02", "0.04", "0.08", "0.12", "0.16"}) {
     const Finished finished = test::run(
         folder, std::string("{ rm -rf whole; " DRAPE_EXECUTABLE " merge parts -o whole & p=$!; sleep ") + delay +
-                    "; kill -INT $p; wait $p; find whole -name '.?*' ! -name .lock -printf 'hidden: %p\\n'; }");
+                    "; kill -TERM $p; wait $p; find whole -name '.?*' ! -name .lock -printf 'hidden: %p\\n'; }");
     EXPECT_EQ(finished.text.find("hidden: "), std::string::npos) << delay << finished.text;
   }
   EXPECT_NE(drape(folder, "merge parts -o whole").code, 130);
