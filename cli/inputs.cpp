@@ -289,6 +289,7 @@ namespace {
 struct ImportedFile {
   TemporaryFolder folder{"drape-import"};
   SceneToRun opened = {};
+  std::vector<std::filesystem::path> files = {};  // of the other program
 };
 
 /// Imports a motion into a temporary motion file.
@@ -298,8 +299,9 @@ std::shared_ptr<ImportedFile> import_for_now(const ImportOptions& options, const
   auto imported = std::make_shared<ImportedFile>();
   const std::filesystem::path motion = imported->folder.path() / (name + ".drape");
   try {
-    run_watched(
-        true, [&](const std::stop_token& stop, Progress& progress) { import_motion(options, motion, stop, progress); });
+    run_watched(true, [&](const std::stop_token& stop, Progress& progress) {
+      imported->files = import_motion(options, motion, stop, progress).files;
+    });
   } catch (const Interrupted&) {
     throw UsageError(shown(options.cloths.front()) + ": interrupted while it was read");
   }
@@ -308,6 +310,7 @@ std::shared_ptr<ImportedFile> import_for_now(const ImportOptions& options, const
 }
 
 SceneToRun with_scene(const std::shared_ptr<ImportedFile>& imported, LoadedScene scene) {
+  scene.source.inputs.insert(scene.source.inputs.end(), imported->files.begin(), imported->files.end());
   return {std::move(scene), std::shared_ptr<MotionReader>(imported, imported->opened.recorded.get())};
 }
 

@@ -35,6 +35,7 @@ class TransformedMotion final : public MotionSource {
   }
 
   [[nodiscard]] const std::string& name() const override { return source_->name(); }
+  [[nodiscard]] std::vector<fs::path> files() const override { return source_->files(); }
   [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
   [[nodiscard]] std::size_t count() const override { return source_->count(); }
   [[nodiscard]] std::vector<double> times() override { return source_->times(); }
@@ -110,6 +111,11 @@ class JoinedMotion final : public MotionSource {
   }
 
   [[nodiscard]] const std::string& name() const override { return first_->name(); }
+  [[nodiscard]] std::vector<fs::path> files() const override {
+    std::vector<fs::path> all = first_->files();
+    std::ranges::move(second_->files(), std::back_inserter(all));
+    return all;
+  }
   [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
   [[nodiscard]] std::size_t count() const override { return first_->count(); }
   [[nodiscard]] std::vector<double> times() override { return first_->times(); }
@@ -234,6 +240,7 @@ class ImportedScene {
                                            body.count(), grid_.steps.size()));
     }
     ++bodies_;
+    std::ranges::move(body.files(), std::back_inserter(body_files_));
     Mesh mesh{.positions = body.moment(0).x, .triangles = body.mesh().triangles};
     const std::string name = fmt::format("body{}", bodies_), first = exact_obj(mesh);
     bool moves = false;
@@ -253,6 +260,7 @@ class ImportedScene {
   }
 
   [[nodiscard]] int bodies() const { return bodies_; }
+  [[nodiscard]] const std::vector<fs::path>& body_files() const { return body_files_; }
   [[nodiscard]] LoadedScene load() const {
     const fs::path file = folder_ / "imported.toml";
     write_file_atomically(file, text_);
@@ -282,6 +290,7 @@ class ImportedScene {
   const TimeGrid& grid_;
   std::string text_;
   int bodies_ = 0;
+  std::vector<fs::path> body_files_;
 };
 
 /// Iterator over a motion's moments with velocities: those of its files, or central differences.
@@ -400,7 +409,9 @@ ImportedMotion import_motion(const ImportOptions& options, const fs::path& file,
                         .step = grid.step,
                         .vertices = static_cast<int>(cloth->mesh().positions.rows()),
                         .triangles = static_cast<int>(cloth->mesh().triangles.size()),
-                        .bodies = text.bodies()};
+                        .bodies = text.bodies(),
+                        .files = cloth->files()};
+  result.files.insert(result.files.end(), text.body_files().begin(), text.body_files().end());
   result.size = write(file, scene, *cloth, grid, stop, progress);
   return result;
 }

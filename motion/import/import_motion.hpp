@@ -69,7 +69,8 @@ struct ImportedMotion {
   std::int64_t frames = 0;
   double step = 0;  ///< frame interval [s]
   int vertices = 0, triangles = 0, bodies = 0;
-  std::uint64_t size = 0;  ///< file size [bytes]
+  std::vector<std::filesystem::path> files = {};  ///< files that were read
+  std::uint64_t size = 0;                         ///< file size [bytes]
 };
 
 /// Imports a motion into a motion file without physics: velocities that the files lack are differences of positions,

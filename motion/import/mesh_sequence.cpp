@@ -68,6 +68,7 @@ class MeshSequence final : public MotionSource {
   }
 
   [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] std::vector<fs::path> files() const override { return files_; }
   [[nodiscard]] const Mesh& mesh() const override { return first_.mesh; }
   [[nodiscard]] std::size_t count() const override { return files_.size(); }
 
@@ -109,6 +110,7 @@ class BodyOfSequence final : public MotionSource {
     name_ = files_.front().string();
   }
   [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] std::vector<fs::path> files() const override { return files_; }
   [[nodiscard]] const Mesh& mesh() const override { return first_; }
   [[nodiscard]] std::size_t count() const override { return files_.size(); }
   [[nodiscard]] ImportedMoment moment(std::size_t i) override {
@@ -360,7 +362,8 @@ constexpr std::size_t header_bytes = 32;
 
 class Pc2 final : public MotionSource {
  public:
-  Pc2(const fs::path& file, const fs::path& mesh) : name_(file.string()), stream_(file, std::ios::binary) {
+  Pc2(const fs::path& file, const fs::path& mesh)
+      : name_(file.string()), mesh_file_(mesh), stream_(file, std::ios::binary) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(file, error);
     if (error || !stream_)
@@ -390,6 +393,7 @@ class Pc2 final : public MotionSource {
   }
 
   [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] std::vector<fs::path> files() const override { return {name_, mesh_file_}; }
   [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
   [[nodiscard]] std::size_t count() const override { return count_; }
   [[nodiscard]] ImportedMoment moment(std::size_t i) override {
@@ -408,6 +412,7 @@ class Pc2 final : public MotionSource {
   }
 
   std::string name_;
+  fs::path mesh_file_;
   std::ifstream stream_;
   Mesh mesh_;
   std::size_t count_ = 0;

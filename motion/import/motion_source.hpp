@@ -43,6 +43,8 @@ class MotionSource {
 
   /// Returns the name of the file or files, for messages.
   [[nodiscard]] virtual const std::string& name() const = 0;
+  /// Returns all files that the motion is read from.
+  [[nodiscard]] virtual std::vector<std::filesystem::path> files() const { return {name()}; }
   /// Returns the mesh at the first moment.
   [[nodiscard]] virtual const Mesh& mesh() const = 0;
   /// Returns the number of moments, at least 1.

@@ -75,6 +75,11 @@ class UsdMotion final : public MotionSource {
   ImportedShapes spheres, grounds;
 
   [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] std::vector<fs::path> files() const override {
+    std::vector<fs::path> all = open_->stage.referenced_files();
+    all.emplace_back(name_);
+    return all;
+  }
   [[nodiscard]] const Mesh& mesh() const override { return moving_.mesh(); }
   [[nodiscard]] std::size_t count() const override { return std::max<std::size_t>(1, moving_.times().size()); }
   [[nodiscard]] std::vector<double> times() override { return moving_.times(); }

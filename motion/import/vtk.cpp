@@ -443,6 +443,11 @@ class PvdPart final : public MotionSource {
   }
 
   [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] std::vector<fs::path> files() const override {
+    std::vector<fs::path> all{name_};
+    all.insert(all.end(), files_.begin(), files_.end());
+    return all;
+  }
   [[nodiscard]] const Mesh& mesh() const override { return first_.mesh; }
   [[nodiscard]] std::size_t count() const override { return files_.size(); }
   [[nodiscard]] std::vector<double> times() override { return times_; }

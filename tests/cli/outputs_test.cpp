@@ -121,6 +121,30 @@ TEST(Outputs, AreRefusedWhereTheyAreRead) {
   }
 }
 
+/// The motions of other programs are read from several files, and as the frames are drawn.
+TEST(Outputs, AreRefusedWhereTheirMotionIsRead) {
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const std::string shorter = " --steps 4 --every 1 ";
+  ASSERT_EQ(
+      drape(folder, "simulate scene.toml -o s/{frame:04}.obj -o m.npz -o m.usda -o m.pvd -o m.pc2" + shorter).code, 0);
+  folder.write("played.toml", "[cloth]\nmotion = \"m.npz\"\nbody = \"s/{frame:04}.obj\"\n");
+  for (const auto& [motion, output] :
+       std::vector<std::pair<std::string, std::string>>{{"m.pc2", "m.obj"},
+                                                        {"m.pc2", "m.pc2"},
+                                                        {"m.npz", "m.npz"},
+                                                        {"m.usda", "m.usda"},
+                                                        {"m.pvd", "m/0000.vtp"},
+                                                        {"s/{frame:04}.obj", "s/0000.obj"},
+                                                        {"s/{frame:04}.obj", "s/{frame:04}.obj"},
+                                                        {"played.toml", "m.npz"},
+                                                        {"played.toml", "s/0002.obj"}}) {
+    const Finished finished = drape(folder, "render '" + motion + "' --frames 0..1 -o '" + output + "'");
+    EXPECT_EQ(finished.code, 2) << motion;
+    EXPECT_TRUE(contains(finished.text, "-o " + output + " would overwrite ")) << finished.text;
+  }
+}
+
 TEST(Outputs, ThatCannotBeWrittenDoNotKeepTheOthersFromIt) {
   const SceneFolder folder;
   folder.write("scene.toml", framed);
