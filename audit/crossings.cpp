@@ -11,7 +11,9 @@
 #include <tuple>
 
 #include "audit/box_tree.hpp"
+#include "audit/passages.hpp"
 #include "audit/predicates.hpp"
+#include "audit/touches.hpp"
 
 namespace drape::audit {
 namespace {
@@ -35,6 +37,94 @@ void add_crossings(const Surface& edges, Owner edge_owner, const Surface& triang
   });
 }
 
+/// Returns the triangles that contain each vertex exactly, without those that share a vertex with it.
+std::map<int, std::vector<int>> triangles_under(const Surface& vertices, const Surface& triangles, bool one_mesh) {
+  std::vector<std::array<int, 1>> all(static_cast<std::size_t>(vertices.x.rows()));
+  for (std::size_t v = 0; v < all.size(); ++v) all[v] = {static_cast<int>(v)};
+  std::map<int, std::vector<int>> under;
+  const BoxTree vertex_tree(boxes_around(all, {&vertices.x}));
+  vertex_tree.for_pairs_with(BoxTree(boxes_around(triangles.topology.triangles, {&triangles.x})), [&](int v, int t) {
+    const Triangle& triangle = triangles.topology.triangles[static_cast<std::size_t>(t)];
+    if (one_mesh && share_vertex(vertices.topology, std::array{v}, triangle)) return;
+    const Eigen::Vector3d p = point(vertices.x, v), a = point(triangles.x, triangle[0]),
+                          b = point(triangles.x, triangle[1]), c = point(triangles.x, triangle[2]);
+    if (orientation(a, b, c, p) != 0) return;
+    if (vertex_meets_triangle({p, p}, {Way{a, a}, Way{b, b}, Way{c, c}})) under[v].push_back(t);
+  });
+  return under;
+}
+
+/// Finds crossings between triangles at a displaced vertex and triangles that contain the vertex.
+class CrossingsAtVertex {
+ public:
+  CrossingsAtVertex(const Surface& vertices, Owner owner, const Surface& others, Owner other_owner)
+      : own_(vertices),
+        others_(others),
+        owner_(owner),
+        other_owner_(other_owner),
+        at_vertices_(triangles_at_vertices(vertices.topology, vertices.x.rows())),
+        length_(displacement(vertices.x, others.x)) {}
+
+  [[nodiscard]] std::vector<Crossing> find(int vertex, const std::vector<int>& others, int towards) const {
+    const Eigen::Vector3d moved = length_ * direction(towards);
+    std::vector<Crossing> found;
+    for (const int i : at_vertices_[static_cast<std::size_t>(vertex)]) {
+      const Triangle& own = own_.topology.triangles[static_cast<std::size_t>(i)];
+      for (const int j : others) {
+        const Triangle& other = others_.topology.triangles[static_cast<std::size_t>(j)];
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Edge spoke = sorted(own[k], own[(k + 1) % 3]), side = sorted(other[k], other[(k + 1) % 3]);
+          if ((spoke[0] == vertex || spoke[1] == vertex) && !shared(spoke, other) &&
+              goes_through(corners(own_, spoke, moved), corners(others_, other, Eigen::Vector3d::Zero()))) {
+            found.push_back({owner_, spoke, other_owner_, other});
+          }
+          if (!shared(side, own) &&
+              goes_through(corners(others_, side, Eigen::Vector3d::Zero()), corners(own_, own, moved))) {
+            found.push_back({other_owner_, side, owner_, own});
+          }
+        }
+      }
+    }
+    return found;
+  }
+
+ private:
+  static Edge sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+  template <std::size_t count>
+  static std::array<Eigen::Vector3d, count> corners(const Surface& of, const std::array<int, count>& feature,
+                                                    const Eigen::Vector3d& moved) {
+    std::array<Eigen::Vector3d, count> at;
+    std::ranges::transform(feature, at.begin(), [&](int v) -> Eigen::Vector3d { return point(of.x, v) + moved; });
+    return at;
+  }
+  [[nodiscard]] bool shared(const Edge& edge, const Triangle& triangle) const {
+    return owner_ == other_owner_ && share_vertex(own_.topology, edge, triangle);
+  }
+
+  const Surface &own_, &others_;
+  Owner owner_, other_owner_;
+  std::vector<std::vector<int>> at_vertices_;
+  double length_;
+};
+
+/// Adds crossings at vertices that lie exactly on triangles. There is one if the triangles at the vertex cross the
+/// others wherever they are displaced a little.
+void add_crossings_at_vertices(const Surface& vertices, Owner owner, const Surface& others, Owner other_owner,
+                               std::vector<Crossing>& found) {
+  const std::map<int, std::vector<int>> under = triangles_under(vertices, others, owner == other_owner);
+  if (under.empty()) return;
+  const CrossingsAtVertex finder(vertices, owner, others, other_owner);
+  for (const auto& [vertex, triangles] : under) {
+    // One fixed displacement of the cloth against a body, and of lower vertices against higher ones.
+    const Triangle& other = others.topology.triangles[static_cast<std::size_t>(triangles.front())];
+    const bool forwards = owner == other_owner ? vertex < std::ranges::min(other) : owner == Owner::cloth;
+    const std::vector<Crossing> chosen = finder.find(vertex, triangles, forwards ? 0 : 1);
+    bool everywhere = true;
+    for (int k = 0; everywhere && k < direction_count; ++k) everywhere = !finder.find(vertex, triangles, k).empty();
+    if (everywhere) found.insert(found.end(), chosen.begin(), chosen.end());
+  }
+}
+
 }  // namespace
 
 std::string describe(const Crossing& crossing) {
@@ -45,6 +135,7 @@ std::string describe(const Crossing& crossing) {
 void sort(std::vector<Crossing>& crossings) {
   std::ranges::sort(crossings, {},
                     [](const Crossing& c) { return std::tuple(c.edge_owner, c.edge, c.triangle_owner, c.triangle); });
+  crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
 }
 
 bool goes_through(const std::array<Eigen::Vector3d, 2>& edge, const std::array<Eigen::Vector3d, 3>& triangle) {
@@ -62,6 +153,7 @@ std::vector<Crossing> find_crossings(const Surface& cloth) {
   const Surface exact{cloth.topology, x};
   std::vector<Crossing> found;
   add_crossings(exact, Owner::cloth, exact, Owner::cloth, found);
+  add_crossings_at_vertices(exact, Owner::cloth, exact, Owner::cloth, found);
   sort(found);
   return found;
 }
@@ -74,6 +166,8 @@ std::vector<Crossing> find_crossings(const Surface& cloth, const Surface& body) 
   std::vector<Crossing> found;
   add_crossings(exact_cloth, Owner::cloth, exact_body, Owner::body, found);
   add_crossings(exact_body, Owner::body, exact_cloth, Owner::cloth, found);
+  add_crossings_at_vertices(exact_cloth, Owner::cloth, exact_body, Owner::body, found);
+  add_crossings_at_vertices(exact_body, Owner::body, exact_cloth, Owner::cloth, found);
   sort(found);
   return found;
 }

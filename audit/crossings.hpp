@@ -60,8 +60,9 @@ std::string describe(const Crossing& crossing);
 /// Finds all edges of a mesh that intersect its triangles, sorted.
 ///
 /// An edge intersects a triangle if its ends lie strictly on both sides of the triangle's plane, and the closed
-/// triangle contains a point of the edge. Signs are exact. An edge that ends exactly in the plane only touches;
-/// find_passages with from = to finds touching features.
+/// triangle contains a point of the edge. Signs are exact. A surface with a vertex exactly on a triangle crosses it if
+/// its triangles at that vertex cross it wherever they are displaced a little; otherwise it only touches. The edges of
+/// one fixed displacement are then returned. find_passages with from = to finds touching features.
 ///
 /// Pairs with a common vertex are skipped. No intersection is lost: two triangles with one common vertex meet in a line
 /// from that vertex. The line ends at an edge of one triangle, in general the edge opposite to the vertex. Two
@@ -72,10 +73,10 @@ std::vector<Crossing> find_crossings(const Surface& cloth);
 /// Finds all edges of the cloth that intersect triangles of the body, and vice versa, sorted.
 std::vector<Crossing> find_crossings(const Surface& cloth, const Surface& body);
 
-/// Sorts like find_crossings: by owners, edge and triangle.
+/// Sorts like find_crossings: by owners, edge and triangle. Removes duplicates.
 void sort(std::vector<Crossing>& crossings);
 
-/// Returns true if one edge intersects one triangle, see find_crossings.
+/// Returns true if one edge intersects one triangle, see find_crossings. An edge that ends in the plane does not.
 bool goes_through(const std::array<Eigen::Vector3d, 2>& edge, const std::array<Eigen::Vector3d, 3>& triangle);
 
 /// A cloth vertex inside an obstacle.

@@ -204,6 +204,7 @@ void MotionAudit::add(const MotionState& state) {
         fmt::format("a state has {} vertices, and the cloth {}", state.x.rows(), cloth_.rest.rows()));
   }
   if (states_ == 0) {
+    touches_.resize(1 + state.colliders.size());
     for (const Collider& collider : state.colliders) {
       const auto* body = std::get_if<MeshShape>(&collider);
       bodies_.push_back(body != nullptr ? make_topology(*body->triangles) : Topology{});
@@ -279,11 +280,12 @@ MotionAudit::Finding MotionAudit::ways(const MotionState& state) {
     }
   };
   const SurfaceMotion cloth{*topology_, before_, state.x};
-  take(find_passages(cloth));
+  take(find_passages(cloth, &touches_.front()));
   for (std::size_t i = 0; i < state.colliders.size(); ++i) {
     const auto* body = std::get_if<MeshShape>(&state.colliders[i]);
     if (body == nullptr) continue;
-    take(find_passages(cloth, {bodies_[i], std::get<MeshShape>(colliders_before_.at(i)).positions, body->positions}));
+    take(find_passages(cloth, {bodies_[i], std::get<MeshShape>(colliders_before_.at(i)).positions, body->positions},
+                       &touches_.at(i + 1)));
   }
   finding.value = static_cast<double>(finding.count);
   finding.vertices = marked.all();

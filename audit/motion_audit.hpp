@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "audit/crossings.hpp"
+#include "audit/touches.hpp"
 #include "drape/sim/mesh.hpp"
 #include "drape/sim/state.hpp"
 
@@ -131,7 +132,7 @@ struct CheckFindings {
   std::int64_t states = 0;  ///< number of states with findings
   std::int64_t first = 0;   ///< step of the first state with findings
   double first_time = 0;    ///< [s]
-  std::size_t touches = 0;  ///< for ways: meetings that start or end in a touch, which are no findings
+  std::size_t touches = 0;  ///< for ways: pairs that touch without passing through each other, which are no findings
   double largest = 0;       ///< greatest depth [m] or stretch of all states, including those below the limit
   WorstState worst;
 };
@@ -172,6 +173,7 @@ class MotionAudit {
   StuckWatch stuck_;
   std::vector<Topology> bodies_;  // in the order of the colliders; empty unless a mesh
   std::vector<char> closed_;
+  std::vector<Touches> touches_;  // of the cloth with itself, then with each collider
   std::int64_t states_ = 0;
   Vertices before_;
   std::vector<Collider> colliders_before_;

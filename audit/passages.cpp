@@ -9,6 +9,7 @@
 
 #include "audit/box_tree.hpp"
 #include "audit/predicates.hpp"
+#include "audit/touches.hpp"
 
 namespace drape::audit {
 namespace {
@@ -375,6 +376,15 @@ void sort(std::vector<Passage>& found) {
   std::ranges::sort(found, {}, [](const Passage& p) { return std::tuple(p.kind, p.first_owner, p.vertices); });
 }
 
+void resolve_touches(const Swept& cloth, const Swept* body, Touches* touches, std::vector<Passage>& found) {
+  const SurfaceMotion own{cloth.topology, cloth.from, cloth.to};
+  Touches of_this_step;
+  if (touches == nullptr) touches = &of_this_step;
+  if (body == nullptr) return touches->resolve(own, nullptr, found);
+  const SurfaceMotion other{body->topology, body->from, body->to};
+  touches->resolve(own, &other, found);
+}
+
 }  // namespace
 
 std::string describe(const Passage& passage) {
@@ -386,16 +396,17 @@ std::string describe(const Passage& passage) {
                      describe(passage.second_owner, {middle, passage.vertices.end()}), passage.time);
 }
 
-std::vector<Passage> find_passages(const SurfaceMotion& cloth) {
+std::vector<Passage> find_passages(const SurfaceMotion& cloth, Touches* touches) {
   const Swept swept = sweep(Owner::cloth, cloth, common_way(cloth));
   std::vector<Passage> found;
   add_vertices_in_triangles(swept, swept, found);
   add_edges(swept, swept, found);
   sort(found);
+  resolve_touches(swept, nullptr, touches, found);
   return found;
 }
 
-std::vector<Passage> find_passages(const SurfaceMotion& cloth, const SurfaceMotion& body) {
+std::vector<Passage> find_passages(const SurfaceMotion& cloth, const SurfaceMotion& body, Touches* touches) {
   const Eigen::RowVector3d common = common_way(cloth);
   const Swept swept_cloth = sweep(Owner::cloth, cloth, common), swept_body = sweep(Owner::body, body, common);
   std::vector<Passage> found;
@@ -403,6 +414,7 @@ std::vector<Passage> find_passages(const SurfaceMotion& cloth, const SurfaceMoti
   add_vertices_in_triangles(swept_body, swept_cloth, found);
   add_edges(swept_cloth, swept_body, found);
   sort(found);
+  resolve_touches(swept_cloth, &swept_body, touches, found);
   return found;
 }
 

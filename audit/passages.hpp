@@ -52,8 +52,10 @@ struct Passage {
   Owner second_owner = Owner::cloth;  ///< owner of the triangle or the second edge
   std::array<int, 4> vertices = {};   ///< the vertex and the triangle's three, or two of each edge
   double time = 0;                    ///< a time at which they meet, in [0, 1]
-  bool touch = false;                 ///< see Meeting::touch
+  bool touch = false;                 ///< the features touch, but do not pass through each other, see Touches
 };
+
+class Touches;
 
 /// Returns for example "cloth vertex 3 meets body triangle 7 8 9 at 0.25 of the step".
 std::string describe(const Passage& passage);
@@ -64,12 +66,13 @@ std::string describe(const Passage& passage);
 /// the step. Touching counts as meeting. Pairs with a common vertex are skipped. Two adjacent triangles (a, b, c) and
 /// (b, a, d) that fold onto each other are still found. Vertex d goes through the triangle (a, b, c), or edge a–d
 /// through b–c.
+/// @param touches memory of the steps before, for surfaces that pass through each other in several steps
 /// @throws std::invalid_argument if a position is non-finite, a triangle's vertex does not exist or from and to differ
 /// in size
-std::vector<Passage> find_passages(const SurfaceMotion& cloth);
+std::vector<Passage> find_passages(const SurfaceMotion& cloth, Touches* touches = nullptr);
 
 /// Finds all pairs of a cloth feature and a body feature that meet in a step: cloth vertices and body triangles, body
 /// vertices and cloth triangles, edges of both. Both may move.
-std::vector<Passage> find_passages(const SurfaceMotion& cloth, const SurfaceMotion& body);
+std::vector<Passage> find_passages(const SurfaceMotion& cloth, const SurfaceMotion& body, Touches* touches = nullptr);
 
 }  // namespace drape::audit

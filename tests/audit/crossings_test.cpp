@@ -103,15 +103,6 @@ TEST(InsideOfABox, IsFoundWithItsDepth) {
   EXPECT_EQ(found[2].vertex, 4);
 }
 
-/// Joins both meshes.
-Mesh joined(Mesh mesh, const Mesh& other) {
-  const auto count = static_cast<int>(mesh.positions.rows());
-  mesh.positions.conservativeResize(count + other.positions.rows(), Eigen::NoChange);
-  mesh.positions.bottomRows(other.positions.rows()) = other.positions;
-  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + count, b + count, c + count});
-  return mesh;
-}
-
 std::size_t count_inside(const Vertices& x, const Mesh& solid) {
   const Topology topology = make_topology(solid.triangles);
   return find_inside(x, {topology, solid.positions}).size();

@@ -23,6 +23,15 @@ inline Vertices moved(const Vertices& x, double angle, const Eigen::RowVector3d&
   return (x * turn.toRotationMatrix().transpose()).rowwise() + shift;
 }
 
+/// Joins both meshes.
+inline Mesh joined(Mesh mesh, const Mesh& other) {
+  const auto count = static_cast<int>(mesh.positions.rows());
+  mesh.positions.conservativeResize(count + other.positions.rows(), Eigen::NoChange);
+  mesh.positions.bottomRows(other.positions.rows()) = other.positions;
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + count, b + count, c + count});
+  return mesh;
+}
+
 template <class Found>
 std::string describe_all(const std::vector<Found>& found) {
   std::string text;
