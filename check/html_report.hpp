@@ -15,16 +15,12 @@ namespace drape {
 std::vector<NamedChart> scene_charts(const SceneResult& scene, const Comparison& comparison);
 
 /// Writes the diagrams of every scene with their points into the scene's folder beside the report, see write_chart().
-/// Those of the whole motion are called "end_to_end.motion" and "end_to_end.pictures".
+/// Diagrams of the whole motion are named "end_to_end.motion" and "end_to_end.pictures".
 /// @returns the first problem as a sentence; empty if everything was written
 /// @throws OutputError if a file cannot be written
 std::string write_diagrams(const CheckReport& report, const std::filesystem::path& folder, FigureStyle style);
 
-}  // namespace drape
-
-// Parts of the HTML report for one scene.
-
-namespace drape {
+// Parts of the HTML report for one scene:
 
 html::Tone tone_of(SceneVerdict verdict);
 html::Tone tone_of(MotionVerdict verdict);

@@ -73,10 +73,8 @@ AccuracyParts parse_parts(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     parts.*accuracy_parts.at(parse_name("--parts", name, known, "the parts are")).second = true;
   }
-  if (parts.films && !parts.asked)
-    throw UsageError("--parts: films are drawn of what 'asked' runs, so it needs that too");
-  if (parts.estimates && !parts.asked)
-    throw UsageError("--parts: the estimates are those of what 'asked' runs, so it needs that too");
+  if (parts.films && !parts.asked) throw UsageError("--parts: films requires asked, whose runs it draws");
+  if (parts.estimates && !parts.asked) throw UsageError("--parts: estimates requires asked, whose runs it judges");
   return parts;
 }
 
@@ -210,7 +208,7 @@ void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& c
   list(
       sub->add_option("--parts", arguments->parts,
                       "Parts to measure: solve (errors by tolerance), order (by time step), asked ([time] accuracy and "
-                      "fixed steps), estimates (how true what these steps say of their errors is), films (how "
+                      "fixed steps), estimates (accuracy of the errors that these steps report), films (how "
                       "different they look); default all"));
   list(sub->add_option(
       "--animate", arguments->animations,

@@ -196,10 +196,10 @@ std::vector<std::string> warnings(const RunResult& result) {
                                 out_of_balance(*residual_force), remedy));
   }
   if (const auto rise = result.statistics.energy_rise(); rise && rise->notable()) {
-    found.push_back(fmt::format(
-        "the cloth's energy rose by {:.2g} J with nothing that gives any, {:.2g} of all that it ever had: omit "
-        "[integrator], or take a shorter [time] step",
-        rise->energy, rise->of_available));
+    found.push_back(
+        fmt::format("the cloth's energy rose by {:.2g} J without a source, {:.2g} of the most that it can have: omit "
+                    "[integrator], or take a shorter [time] step",
+                    rise->energy, rise->of_available));
   }
   return found;
 }

@@ -165,7 +165,7 @@ Block BlockReader::first_bytes(std::uint64_t begin, std::uint64_t count) const {
 Block BlockReader::block(std::uint64_t begin) const {
   Block block = first_bytes(begin, UINT64_MAX);
   if (block_head(block.tag, block.payload) != bytes(begin, head_size)) {
-    fail(fmt::format("the file is damaged: the checksum of what is at byte {} is wrong", begin));
+    fail(fmt::format("the file is damaged: the block at byte {} has a wrong checksum", begin));
   }
   return block;
 }

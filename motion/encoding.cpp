@@ -108,7 +108,7 @@ MotionHeader unpack_header(std::string_view payload) {
     header.imported = json.value("imported", false);
     header.energies = json.value("energies", true);
   } catch (const Json::exception&) {
-    throw std::invalid_argument("has a head that is not what it should be");
+    throw std::invalid_argument("has an invalid header");
   }
   for (const std::string& kind : header.colliders) {
     if (kind != "sphere" && kind != "ground" && kind != "body")
@@ -327,7 +327,7 @@ const State& StateCodec::decode(std::string_view bytes) {
   const auto places = static_cast<int>(how % 256), velocities = static_cast<int>(how / 256 % 256);
   const bool by_places = velocities == by_way || velocities == by_mean_way;
   if (how >= 65536 || places > known_ || (velocities > known_ && !(by_places && known_ > 0))) {
-    throw std::invalid_argument("has a state that is foretold from what is not there");
+    throw std::invalid_argument("has a state predicted from an earlier one that is missing");
   }
   if (state.step < 0 || (known_ > 0 && state.step <= before(1).step)) {
     throw std::invalid_argument("has steps that are not in order");

@@ -61,7 +61,7 @@ MotionReader::MotionReader(const std::filesystem::path& file, std::uint64_t leng
 
 std::string MotionReader::payload(std::uint64_t begin, const char* tag) const {
   Block block = blocks_.block(begin);
-  if (block.tag != tag) blocks_.fail(fmt::format("the file has something else where it should have {}", tag));
+  if (block.tag != tag) blocks_.fail(fmt::format("the file lacks {} where it is expected", tag));
   return std::move(block.payload);
 }
 
@@ -77,7 +77,7 @@ void MotionReader::read_index() {
     const std::uint64_t state_count = reader.whole(), rows_count = reader.whole();
     if (state_count > index.size() || rows_count > index.size() ||
         reader.rest().size() != 16 * (state_count + rows_count)) {
-      throw std::invalid_argument("has an index that is not what it should be");
+      throw std::invalid_argument("has an invalid index");
     }
     for (std::uint64_t i = 0; i < 2 * state_count; ++i) state_index_.push_back(reader.whole());
     for (std::uint64_t i = 0; i < 2 * rows_count; ++i) rows_index_.push_back(reader.whole());

@@ -6,14 +6,6 @@
 
 namespace drape {
 
-double mean_edge(const Vertices& x, const std::vector<Triangle>& triangles) {
-  double sum = 0;
-  for (const Triangle& t : triangles) {
-    for (std::size_t c = 0; c < 3; ++c) sum += (x.row(t[c]) - x.row(t[(c + 1) % 3])).norm();
-  }
-  return triangles.empty() ? 0 : sum / (3 * static_cast<double>(triangles.size()));
-}
-
 std::optional<VertexOrder> match_vertices(const Vertices& x, const Vertices& other, double tolerance) {
   if (x.rows() != other.rows()) return std::nullopt;
   // Sort along a direction that separates vertices in usual meshes.

@@ -10,9 +10,6 @@ namespace drape {
 /// Map between the vertices of two meshes: vertex i of one is vertex order[i] of the other.
 using VertexOrder = std::vector<int>;
 
-/// Returns the mean length of the triangles' sides [m]; 0 without triangles.
-double mean_edge(const Vertices& x, const std::vector<Triangle>& triangles);
-
 /// Matches the vertices of two meshes by their positions.
 /// @param tolerance largest distance of a matching pair [m]
 /// @returns for each vertex of `x` its partner in `other`; nothing unless each has exactly one within the tolerance

@@ -113,14 +113,6 @@ constexpr int most_texture_pixels = 256;
 constexpr double texture_parts = 4096;  // steps per texture coordinate
 constexpr double least_strain = 0.0005, strain_steps = 48;
 
-double mean_edge(const Vertices& x, const std::vector<Triangle>& triangles) {
-  double sum = 0;
-  for (const Triangle& t : triangles) {
-    for (std::size_t c = 0; c < 3; ++c) sum += (x.row(t[c]) - x.row(t[(c + 1) % 3])).norm();
-  }
-  return triangles.empty() ? 0 : sum / (3 * static_cast<double>(triangles.size()));
-}
-
 double diagonal(const Vertices& x) {
   return x.rows() == 0 ? 0 : (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
 }

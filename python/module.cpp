@@ -121,7 +121,7 @@ void add_functions(py::module_& module) {
       py::arg("target") = py::none(), py::arg("azimuth") = py::none(), py::arg("elevation") = py::none(),
       py::arg("field_of_view") = py::none(), py::arg("color_by") = py::none(), py::arg("color_limit") = py::none(),
       "Draws the cloth as it is now: height×width×3 bytes, sRGB.\n\n"
-      "What is not given is as the scene has it: size [pixels], position and target [m], azimuth, elevation and\n"
+      "Omitted values are those of the scene: size [pixels], position and target [m], azimuth, elevation and\n"
       "field_of_view [degrees]. A camera without a position stands where all of this moment is in view. color_by "
       "colours\n"
       "the cloth by \"stretch\" (0.1: 10 %), \"speed\" [m/s] or \"curvature\" [1/m], from 0 to color_limit, by default "

@@ -282,7 +282,7 @@ void add_simulation(py::module_& module) {
       .def_readonly("converged", &StepReport::converged, "True if the stopping rule was met within max_iterations.")
       .def_readonly("redone", &StepReport::redone,
                     "True if sdirk2 gained energy, so that backward Euler took the step instead.")
-      .def_readonly("kept", &StepReport::kept, "The part of the way to the last iterate that the step went, 0 to 1.")
+      .def_readonly("kept", &StepReport::kept, "Fraction of the path to the last iterate that the step kept, 0 to 1.")
       .def_readonly("substeps", &StepReport::substeps, "Number of substeps of the step.")
       .def_readonly("estimate", &StepReport::estimate,
                     "Estimated error that the step has added [m]; None unless the scene asks for an accuracy.")
@@ -330,7 +330,7 @@ void add_simulation(py::module_& module) {
           "time", [](Self& self) { return self.with([](auto& s) { return s.time(); }); }, "[s]")
       .def_property_readonly(
           "steps_taken", [](Self& self) { return self.with([](auto& s) { return s.state().step; }); },
-          "How many steps the cloth has gone.")
+          "Number of steps taken.")
       .def_property_readonly(
           "energies", [](Self& self) { return self.with([](auto& s) { return s.energies(); }); },
           "Kinetic, of gravity and elastic [J].")

@@ -39,7 +39,7 @@ std::vector<std::filesystem::path> parts_in(const std::filesystem::path& folder,
 /// The shards that were found while they are merged.
 class FoundShards {
  public:
-  /// @param whole what they are parts of, for messages: "study"
+  /// @param whole noun of the whole for messages: "study"
   explicit FoundShards(std::string whole) : whole_(std::move(whole)) {}
 
   /// Adds the shard of a file.
@@ -47,11 +47,12 @@ class FoundShards {
   /// @throws UsageError if the whole has another number of shards
   bool add(const Shard& shard, const std::filesystem::path& file);
 
-  /// Throws an error for a file of another whole than the shards so far, at least one. @throws UsageError
+  /// Reports that a file belongs to another whole than the shards added so far, at least one.
+  /// @throws UsageError
   [[noreturn]] void fail_as_other(const std::filesystem::path& file) const;
 
   [[nodiscard]] bool empty() const { return files_.empty(); }
-  /// Returns the shards that are not there.
+  /// Returns the missing shards.
   [[nodiscard]] std::vector<Shard> missing() const;
 
  private:

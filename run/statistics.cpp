@@ -13,7 +13,7 @@ namespace drape {
 void EnergyRise::begin(const Simulation& simulation) {
   watches_ = simulation.only_loses_energy();
   from_start_ = simulation.has_push();
-  every_ = is_explicit(simulation.settings().integrator.method) ? between_looks : 1;
+  every_ = is_explicit(simulation.settings().integrator.method) ? check_interval : 1;
   if (watches_ && simulation.state().step == 0) note(simulation.energies());
 }
 
@@ -40,10 +40,10 @@ std::optional<EnergyRise::Rise> EnergyRise::rise() const {
 
 namespace {
 
-constexpr std::int64_t between_looks = 128;  // steps between two estimates
-constexpr double coarse_share = 0.01;        // share of the cloth's size
-constexpr double still = 1e-3;               // speed below which a cloth is at rest [cloth sizes/s]
-constexpr double moment = 0.01;              // or the speed that residual_force forces cause within this time [s]
+constexpr std::int64_t check_interval = 128;  // steps between two estimates
+constexpr double coarse_share = 0.01;         // share of the cloth's size
+constexpr double still = 1e-3;                // speed below which a cloth is at rest [cloth sizes/s]
+constexpr double moment = 0.01;               // or the speed that residual forces cause within this time [s]
 
 }  // namespace
 
@@ -57,7 +57,7 @@ void ErrorMonitor::after_step(const Simulation& simulation, const StepReport& re
   if (report.estimate) return note(simulation.state().step, *report.estimate);
   if (!accuracy_) return;
   const bool known = accuracy_->rule == StoppingRule::error && report.converged;
-  if (known || simulation.state().step % between_looks == 0) look(simulation);
+  if (known || simulation.state().step % check_interval == 0) look(simulation);
 }
 
 void ErrorMonitor::replay(const StepRow& row, double /*time*/, double /*seconds*/) {

@@ -51,8 +51,8 @@ class EnergyRise final : public StepObserver {
  private:
   void note(const Energies& now);
 
-  // Steps of explicit methods between two looks, as an energy costs as much as a step. A rise lasts for longer.
-  static constexpr std::int64_t between_looks = 8;
+  // Steps of an explicit method between two checks: an energy costs as much as a step, and a rise lasts longer.
+  static constexpr std::int64_t check_interval = 8;
 
   bool watches_ = false, from_start_ = false;
   std::int64_t every_ = 1;                                                             // number of steps
@@ -60,7 +60,7 @@ class EnergyRise final : public StepObserver {
   double least_ = std::numeric_limits<double>::infinity(), available_ = 0, rise_ = 0;  // [J]
 };
 
-/// Estimates of the solver error of a run's steps, and of the residual_force force on a cloth at rest. The estimates do
+/// Estimates of the solver error of a run's steps, and of the residual force on a cloth at rest. The estimates do
 /// not change the motion.
 class ErrorMonitor final : public StepObserver {
  public:
@@ -70,7 +70,7 @@ class ErrorMonitor final : public StepObserver {
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
   /// Records a step of an earlier run, see StepObserver.
   void replay(const StepRow& row, double time, double seconds) override;
-  /// Estimates the error of the last step, and the residual_force force if the cloth is at rest.
+  /// Estimates the error of the last step, and the residual force if the cloth is at rest.
   void finish(const Simulation& simulation);
 
   /// Returns the stopping criterion of a step; nothing for a method without minimisation.
@@ -94,7 +94,7 @@ class ErrorMonitor final : public StepObserver {
   /// Returns true if the mean error exceeds a hundredth of the cloth's size.
   [[nodiscard]] bool coarse() const;
 
-  /// The residual_force forces on a cloth at rest, as the norm of each vertex's force.
+  /// Sum over the vertices of the residual force's norm, of a cloth at rest.
   struct ResidualForce {
     double force;                     ///< [N]
     std::optional<double> of_weight;  ///< share of the weight; absent without gravity

@@ -67,8 +67,8 @@ void add_doubts(const ClothTable& table, ClothAndUvs& result) {
   const bool turned = !table.rotate.isZero(0);
   if (file != nullptr && !turned && is_obj(*file) && seems_y_up(result.mesh.positions)) {
     warnings.push_back(
-        fmt::format("it looks as if y pointed up in it, and here z does: perhaps {{ file = \"{}\", up = "
-                    "\"y\" }} is meant; up = \"z\" ends this hint",
+        fmt::format("y seems to point up in it, and here z does: write {{ file = \"{}\", up = \"y\" }}, or "
+                    "up = \"z\" to end this hint",
                     *file));
   }
 }

@@ -286,9 +286,10 @@ LoadedScene make_scene(TomlValue document, const std::filesystem::path& file, co
   apply_overrides(document, overrides, problems);
   const TomlValue* motion = find_path(document, "cloth.motion");
   if (motion != nullptr && motion->as<TomlTable>() == nullptr) {  // a table: the cloth with this name
-    problems.add(motion->place,
-                 "motion: this scene plays a motion that is read, and a scene that is simulated is needed here; drape "
-                 "render, compare, check, bless and audit take it");
+    problems.add(
+        motion->place,
+        "motion: expected a scene that is simulated; this one plays a recorded motion, which drape render, compare, "
+        "check, bless and audit take");
     problems.throw_if_any();
   }
   const bool draft = cells == Cells::of_quality ? says_draft(document) : cells == Cells::of_draft;

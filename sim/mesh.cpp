@@ -238,6 +238,14 @@ struct Side {
 
 }  // namespace
 
+double mean_edge(const Vertices& x, const std::vector<Triangle>& triangles) {
+  double sum = 0;
+  for (const Triangle& t : triangles) {
+    for (std::size_t c = 0; c < 3; ++c) sum += (x.row(t[c]) - x.row(t[(c + 1) % 3])).norm();
+  }
+  return triangles.empty() ? 0 : sum / (3 * static_cast<double>(triangles.size()));
+}
+
 VertexCurvature::VertexCurvature(int vertex_count, const std::vector<Triangle>& triangles)
     : vertex_count_(vertex_count), triangles_(triangles) {
   std::map<Edge, std::vector<Side>> edges;  // sorted by vertices, for a fixed order of sums

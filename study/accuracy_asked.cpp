@@ -227,14 +227,14 @@ html::Chart by_cost(const SceneAccuracy& scene, int order, const std::string& ti
 }
 
 html::Chart asked_and_got(const SceneAccuracy& scene) {
-  html::Chart chart{fmt::format("Asked and got: the error at {:g} s by the accuracy that was asked for of each step.",
-                                scene.options.times.front()),
-                    "accuracy asked for [m]",
-                    "error [m]",
-                    html::Scale::logarithmic,
-                    html::Scale::logarithmic,
-                    {},
-                    {}};
+  html::Chart chart{
+      fmt::format("Error at {:g} s against the requested accuracy of each step.", scene.options.times.front()),
+      "requested accuracy [m]",
+      "error [m]",
+      html::Scale::logarithmic,
+      html::Scale::logarithmic,
+      {},
+      {}};
   for (const StepMethod method : scene.options.methods) {
     html::ChartSeries series = method_series(step_method_name(method));
     for (const MotionPoint& p : scene.asked) {

@@ -241,7 +241,7 @@ std::string describe_cost(const SceneAccuracy& scene, const MotionPoint& p) {
 }
 
 ResultTable cost_table(const std::vector<SceneAccuracy>& scenes) {
-  ResultTable table{"asked-cost", "Accuracies that were asked for, and what they cost", {"scene", "method"}, {}, {}};
+  ResultTable table{"asked-cost", "Cost of requested accuracies", {"scene", "method"}, {}, {}};
   const std::vector<double>& accuracies = scenes.front().options.accuracies;
   for (const double accuracy : accuracies) table.columns.push_back("accuracy = " + plain_number(accuracy));
   for (const SceneAccuracy& scene : scenes) {
@@ -346,7 +346,7 @@ std::optional<StudySection> asked_summary(const std::vector<SceneAccuracy>& scen
   if (asked.empty()) return std::nullopt;
   std::vector<ResultTable> tables{take_table(asked), cost_table(asked)};
   if (ResultTable checks = checks_table(asked); !checks.rows.empty()) tables.push_back(std::move(checks));
-  return StudySection{"Accuracies that are asked for",
+  return StudySection{"Requested accuracies",
                       {fmt::format("Errors of motions are at {:g} s.", asked.front().options.times.front())},
                       std::move(tables),
                       {},

@@ -45,7 +45,7 @@ double capstan_limit(double friction, double light, double radius);
 /// @param span distance of the points, between 0 and 2 [m]
 double catenary_sag(double span);
 
-/// Returns where a mass on a spring that swings on dry ground comes to rest: every half swing is shorter by two.
+/// Returns the rest position of a spring-mass oscillator with dry friction: each half swing is shorter by two.
 /// Both distances are relative to the largest at which friction holds the mass.
 /// @param start distance from which it is let go
 double stick_slip_rest(double start);

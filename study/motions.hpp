@@ -16,8 +16,8 @@ namespace drape {
 
 /// A motion on a study's page, for interactive viewing.
 struct StudyMotion {
-  std::string label;               ///< makes a page of this motion alone; empty: no scene file has it
-  std::string command;             ///< makes a page of this motion alone; empty: no scene has it
+  std::string label;               ///< heading of the player, and its name for screen readers
+  std::string command;             ///< command that makes a page of this motion alone; empty: no scene has it
   html::PlayedMotion played = {};  ///< without frames if too large for a browser
 };
 

@@ -15,7 +15,7 @@ namespace drape {
 
 /// A scene with a few overrides and a number of steps: the unit of measurement of a study.
 struct StudyCase {
-  std::string label;                   ///< a file, relative to `folder`: "scenes/homework/3.toml"
+  std::string label;                   ///< heading in tables and charts: "liu13, ε = 0.001"
   std::string scene;                   ///< a file, relative to `folder`: "scenes/homework/3.toml"
   std::vector<std::string> overrides;  ///< overrides as for --set
   std::int64_t steps = 0;

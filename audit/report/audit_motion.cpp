@@ -99,8 +99,7 @@ std::vector<Check> found_checks(const AuditReport& report) {
 }
 
 std::string describe_rise(const EnergyAudit& energy) {
-  return fmt::format("{:.3g} J from {:.4g} s to {:.4g} s, with nothing that gives any", energy.rise, energy.from,
-                     energy.to);
+  return fmt::format("{:.3g} J from {:.4g} s to {:.4g} s, without a source", energy.rise, energy.from, energy.to);
 }
 
 /// Returns the table of the checks, with notes on what they cannot judge.

@@ -188,7 +188,7 @@ constexpr const char* exit_status =
     ".TP\n2\nThe command line, a scene or a file is wrong, or the system lacks something.\n"
     ".TP\n3\nA simulation diverged.\n"
     ".TP\n4\nSomething could not be drawn, encoded or written.\n"
-    ".TP\n130\nInterrupted; what there was is kept.\n";
+    ".TP\n130\nInterrupted; partial results are kept.\n";
 
 constexpr const char* surroundings =
     ".SH ENVIRONMENT\n"

@@ -69,7 +69,7 @@ _drape() {
   current=${words[-1]}
   mapfile -t COMPREPLY < <("${words[0]}" complete -- "${words[@]:1}" 2>/dev/null | cut -f 1)
   [[ ${COMPREPLY[0]} == *[=/] ]] && compopt -o nospace 2>/dev/null
-  # What stands before the last = is on the line already, where = ends a word.
+  # Where = ends a word, the part up to the last = is already on the line.
   [[ $COMP_WORDBREAKS == *=* && $current == *=* ]] && COMPREPLY=("${COMPREPLY[@]#"${current%=*}="}")
 }
 complete -o bashdefault -o default -F _drape drape

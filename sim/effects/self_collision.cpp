@@ -17,7 +17,8 @@ void SelfCollision::describe(Keys& keys) {
   describe_overlap(keys, allow_overlap);
   keys.add("contact", &contact, "",
            "Friction between two named cloths, instead of `friction`. A name given twice: of a cloth with itself.");
-  keys.replace("repulsion", "layers that are too near part at 20 times what is missing per second: omit it");
+  keys.replace("repulsion",
+               "close layers separate by themselves, each second by 20 times the missing distance: omit it");
   keys.replace("iterations", "contact is solved for until it holds: omit it");
 }
 

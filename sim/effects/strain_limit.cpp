@@ -15,7 +15,7 @@ namespace {
 /// Returns the message that an edge starts beyond a limit.
 std::string beyond(const char* side, double limit, const Spring& s, double stretch) {
   return fmt::format(
-      "the cloth starts beyond the limit, and one step would throw it back: the edge between the vertices {} "
+      "the cloth starts beyond the limit, and the first step would jerk it: the edge between the vertices {} "
       "and {} is {:.4g} times as long as at rest, {} {:g}",
       s.i, s.j, stretch, side, limit);
 }

@@ -151,7 +151,7 @@ TEST(PlayedMotion, HasASceneThatSaysWhatMeansNothing) {
   };
   expect_refused("simulate look.toml", "nothing to simulate");
   expect_refused("render look.toml --set time.step=0.1 -o a.png", "[time]: the motion is read, not computed");
-  expect_refused("sweep look.toml --vary look.color=red,blue", "plays a motion that is read");
+  expect_refused("sweep look.toml --vary look.color=red,blue", "plays a recorded motion");
   folder.write("bad.toml",
                "[cloth]\nmotion = \"m/{frame:02}.obj\"\nstiffness = 3\nfsp = 50\n[cloth.transform]\nscale = 2\n"
                "[time]\nstep = 0.01\n[effects.gravity]\n[camera]\nazimut = 3\n");

@@ -157,7 +157,7 @@ TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
   expect_error("a.toml --tolerances -1", "--tolerances");
   expect_error("a.toml --accuracies 0", "--accuracies");
   expect_error("a.toml --parts askd", "did you mean 'asked'");
-  expect_error("a.toml --parts films", "films are drawn of what 'asked' runs");
+  expect_error("a.toml --parts films", "films requires asked");
   expect_error("a.toml --parts estimates", "those of what 'asked' runs");
   expect_error("a.toml --patience 0", "--patience");
   // It names semi-implicit Euler, which has nothing to solve for, although that would run only after the reference

@@ -54,7 +54,7 @@ TEST_P(Release, ASheetThatIsLiftedLeavesTheGroundAndABoxWithinTwoSteps) {
   }
 }
 
-// The residual_force force includes contact forces, which bear the whole weight here.
+// The residual force includes contact forces, which bear the whole weight here.
 TEST_P(Release, ASheetThatLiesIsInBalance) {
   SimulationSettings s = settings(plain_sheet(level_square(0.5, 5, distance + 0.002)), 0.01);
   s.effects.add(solved_ground());

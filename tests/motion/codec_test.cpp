@@ -90,7 +90,7 @@ TEST(StateCodec, RefusesWhatIsNoState) {
   StateCodec writer(3, h);
   const std::string first = writer.encode(states[0]), second = writer.encode(states[1]);
   StateCodec reader(3, h);
-  EXPECT_THROW(reader.decode(second), std::invalid_argument) << "foretold from a state that is not there";
+  EXPECT_THROW(reader.decode(second), std::invalid_argument) << "predicted from a state that is missing";
   EXPECT_THROW(reader.decode(first.substr(0, first.size() - 1)), std::invalid_argument);
   EXPECT_THROW(reader.decode(first + "x"), std::invalid_argument);
   EXPECT_THROW(reader.decode(""), std::invalid_argument);

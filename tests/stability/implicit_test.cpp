@@ -131,7 +131,7 @@ TEST_P(HardCasesByDefault, GainNoEnergyOutOfNothing) {
     ASSERT_TRUE(simulation.state().x.allFinite() && simulation.state().v.allFinite());
     EXPECT_LE(report.rise, 0);
     EXPECT_LE(b.gain(), (report.converged ? b.tolerated : 0) + b.gain_rounding()) << "step " << step;
-    // Convergence is confirmed by the residual_force forces, up to rounding.
+    // Convergence is confirmed by the residual forces, up to rounding.
     if (report.converged && condition_bound(make_system(hard.settings)) < 1e6) {
       EXPECT_LE(simulation.error(), 1.001 * ledger.tolerance(before, simulation.state())) << "step " << step;
     }

@@ -103,6 +103,9 @@ class VertexStretch {
   Eigen::VectorXd areas_;  // sum over the triangles around each vertex [m²]
 };
 
+/// Returns the mean length of the triangles' sides [m]; 0 without triangles.
+double mean_edge(const Vertices& x, const std::vector<Triangle>& triangles);
+
 /// Curvature of a cloth at each vertex [1/m]: (|κ₁| + |κ₂|)/2 of the principal curvatures. It is 1/(2R) on a cylinder
 /// and 1/R on a sphere of radius R, and 0 in flat parts and at borders. An edge whose triangles meet at the angle θ
 /// contributes ½θ times its length, shared by its two vertices. This is the integral of the mean curvature over a
