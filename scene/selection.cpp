@@ -159,6 +159,10 @@ class Selection {
     try {
       vertices_ = entry.name == "group" ? read_mesh_group(mesh_->file, *text)
                                         : read_mesh_primvar(mesh_->file, mesh_->options, *text);
+      if (!vertices_.empty() && std::ranges::max(vertices_) >= mesh_->positions.rows()) {
+        problems_.add(entry.value.place, fmt::format("{}: '{}' is no part of the cloth", name, *text));
+        vertices_.clear();
+      }
     } catch (const UsageError& error) {
       problems_.add(entry.value.place, fmt::format("{}: {}", name, error.what()));
     }

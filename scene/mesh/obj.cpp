@@ -52,9 +52,7 @@ class ObjReader {
     callbacks.group_cb = [](void* self, const char** names, int count) {
       static_cast<ObjReader*>(self)->enter({names, names + count}, static_cast<ObjReader*>(self)->in_group_);
     };
-    callbacks.object_cb = [](void* self, const char* name) {
-      static_cast<ObjReader*>(self)->enter({name}, static_cast<ObjReader*>(self)->in_object_);
-    };
+    callbacks.object_cb = [](void* self, const char* name) { static_cast<ObjReader*>(self)->enter_object(name); };
     std::istream stream(&buffer_);
     tinyobj::LoadObjWithCallback(stream, callbacks, this);
     if (builder_.vertex_count() == 0) source_.fail("there is no vertex ('v x y z') in the file");
@@ -183,6 +181,7 @@ class ObjReader {
                           offset});
       if (in_group_ || in_object_) group_vertices_.push_back(corners_.back().vertex);
     }
+    faces_in_group_ = in_group_;
     face_sizes_.push_back(corners.size());
   }
 
@@ -190,6 +189,12 @@ class ObjReader {
     if (group_.empty()) return;
     groups_.insert(groups_.end(), names.begin(), names.end());
     inside = std::ranges::find(names, group_) != names.end();
+  }
+
+  /// An object ends the group before it, unless that has no faces yet: some programs write "g" before "o".
+  void enter_object(const std::string& name) {
+    if (faces_in_group_) in_group_ = faces_in_group_ = false;
+    enter({name}, in_object_);
   }
 
   [[nodiscard]] int absolute(int number, std::size_t so_far, const char* what, std::size_t offset) const {
@@ -236,7 +241,7 @@ class ObjReader {
   std::vector<Corner> corners_;
   std::vector<std::size_t> face_sizes_;
   std::string group_;
-  bool in_group_ = false, in_object_ = false;
+  bool in_group_ = false, in_object_ = false, faces_in_group_ = false;
   std::vector<std::string> groups_;
   std::vector<int> group_vertices_;
 };

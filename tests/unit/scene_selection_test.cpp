@@ -51,6 +51,19 @@ TEST(SceneSelection, OfTheBorderInItsOrder) {
   EXPECT_EQ(border_rings(make_grid(1, 1).triangles), (std::vector<std::vector<int>>{{0, 1, 3, 2}}));
 }
 
+// drape writes the groups of the cloths first, then an object for each obstacle.
+TEST(SceneSelection, ByAGroupOfAFrameThatDrapeWroteEndsWithTheCloth) {
+  const SceneFolder folder;
+  folder.write("frame.obj",
+               "# drape: frame 0 at 0 s, in metres, z up\no cloth\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 5\nv 1 0 5\nv 0 1 "
+               "5\ng cover\nf 1 2 3\ng napkin\nf 4 5 6\no body1\nv 0 0 9\nv 1 0 9\nv 0 1 9\nf 7 8 9\n");
+  EXPECT_EQ(selected(folder, "{ group = \"napkin\" }", "\"frame.obj\""), (std::vector{3, 4, 5}));
+  EXPECT_EQ(folder.problems(cloth("{ group = \"body1\" }", "\"frame.obj\"")),
+            "scene.toml:4:19: pins[0].group: 'body1' is no part of the cloth");
+  folder.write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 5\ng hem\no skirt\nf 1 2 3\no belt\nf 1 3 4\n");
+  EXPECT_EQ(selected(folder, "{ group = \"hem\" }", "\"other.obj\""), (std::vector{0, 1, 2}));
+}
+
 TEST(SceneSelection, ByTheNamesOfAFile) {
   const SceneFolder folder;
   folder.write("a.obj",
