@@ -62,9 +62,11 @@ class KeyframesKind final : public DescribedKind<KeyframeList> {
     }
     list.keyframes->clear();
     std::optional<std::size_t> used;
+    bool good = true;
     for (std::size_t i = 0; i < array->size(); ++i) {
-      if (!read_keyframe((*array)[i], item_name(given.key.name, i), list, used, given.problems)) return;
+      good = read_keyframe((*array)[i], item_name(given.key.name, i), list, used, given.problems) && good;
     }
+    if (!good) return;
     if (list.set_name) list.set_name(*used);
     for (const Keyframe& keyframe : *list.keyframes) {
       if (out_of_reach(given, keyframe.value.cwiseAbs().maxCoeff())) return;

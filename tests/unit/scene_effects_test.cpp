@@ -75,6 +75,10 @@ TEST(SceneEffects, KeyframesAreReadStrictly) {
       said("[{ time = 1, center = [0, 0, 0] }, { time = 1, center = [0, 0, 0] }]"),
       "scene.toml:8:57: keyframes[1].time: keyframes must follow each other in time, and the one before is at 1 s, "
       "found 1");
+  EXPECT_EQ(said("[{ time = -1, center = [0, 0, 0] }, { time = 1 }, { tim = 2, center = [0, 0, 0] }]"),
+            "scene.toml:8:23: keyframes[0].time must be at least 0, found -1\n"
+            "scene.toml:8:49: keyframes[1]: missing key 'center'\n"
+            "scene.toml:8:65: keyframes[2]: unknown key 'tim'; did you mean 'time'?");
   EXPECT_EQ(said("[{ time = 1, center = [0, 0] }]"),
             "scene.toml:8:35: keyframes[0].center: expected an array of 3 numbers, found one of 2");
 }
