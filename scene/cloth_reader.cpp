@@ -59,6 +59,19 @@ std::string difference(const Mesh& rest, const Mesh& mesh) {
   return {};
 }
 
+/// Returns the vertices of no triangle, ascending.
+std::vector<int> unused_vertices(const Mesh& mesh) {
+  std::vector<char> used(static_cast<std::size_t>(mesh.positions.rows()), 0);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const int v : triangle) used[static_cast<std::size_t>(v)] = 1;
+  }
+  std::vector<int> unused;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v] == 0) unused.push_back(static_cast<int>(v));
+  }
+  return unused;
+}
+
 /// Adds warnings about a complete cloth.
 void add_doubts(const ClothTable& table, ClothAndUvs& result) {
   std::vector<std::string>& warnings = result.warnings;
@@ -206,7 +219,11 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
     return std::nullopt;
   }
 
-  ClothAndUvs result{make_cloth(*start, *rest, table.mass, table.stiffness.value_or(1), std::move(pins)),
+  const std::vector<int> unused = unused_vertices(*start);
+  pins.insert(pins.end(), unused.begin(), unused.end());
+  const auto all = static_cast<double>(start->positions.rows());
+  const double mass = table.mass * all / (all - static_cast<double>(unused.size()));  // of used vertices alone
+  ClothAndUvs result{make_cloth(*start, *rest, mass, table.stiffness.value_or(1), std::move(pins)),
                      std::move(start->uvs),
                      std::move(*selectable),
                      std::move(inputs),
@@ -226,6 +243,10 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
     return std::nullopt;
   }
   add_doubts(table, result);
+  if (!unused.empty()) {
+    result.warnings.push_back(fmt::format("{} of its {} vertices belong{} to no triangle: they stay in place",
+                                          unused.size(), result.cloth.vertex_count(), unused.size() == 1 ? "s" : ""));
+  }
   return result;
 }
 
@@ -424,10 +445,11 @@ ClothList read_cloths(const TomlValue& document, TableReader& reader, const std:
   const bool whole = list.meshes.size() == items.size() && !items.empty();
   for (const TomlValue* item : items_of(document, "seam")) {
     SeamTable& table = list.seams.emplace_back();
-    const std::size_t found = problems.count();
     reader.read(*item, seam_table(table));
-    if (!whole || problems.count() != found) continue;
-    if (auto seam = read_seam(table, *item, list.cloth, list.meshes, problems)) list.cloth.seams.push_back(*seam);
+    if (table.a == nullptr || table.b == nullptr) continue;
+    static const std::deque<PlacedSelection> none;
+    const auto& meshes = whole ? list.meshes : none;
+    if (auto seam = read_seam(table, *item, list.cloth, meshes, problems)) list.cloth.seams.push_back(*seam);
   }
   list.good = whole && problems.count() == before;
   return list;

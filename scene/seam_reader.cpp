@@ -30,20 +30,28 @@ class SeamReader {
   SeamReader(const Cloth& cloth, const std::deque<PlacedSelection>& meshes, Problems& problems)
       : cloth_(cloth), meshes_(meshes), problems_(problems) {}
 
-  std::optional<Side> side(const TomlValue& value, const std::string& name) {
+  /// Returns the table of a side, if its keys are known.
+  const TomlTable* table_of(const TomlValue& value, const std::string& name) {
     const TomlTable* table = value.as<TomlTable>();
     if (table == nullptr) {
       problems_.add(value.place,
                     fmt::format("{}: expected {{ cloth = …, along = […] }}, found {}", name, value.kind()));
-      return std::nullopt;
+      return nullptr;
     }
     static const std::vector<std::string> keys = {"cloth", "along"};
+    bool known = true;
     for (const TomlEntry& entry : table->entries) {
       if (std::ranges::find(keys, entry.name) != keys.end()) continue;
       problems_.add(entry.place, fmt::format("{}: unknown key '{}'{}", name, entry.name,
                                              did_you_mean(entry.name, keys, "the keys are")));
-      return std::nullopt;
+      known = false;
     }
+    return known ? table : nullptr;
+  }
+
+  std::optional<Side> side(const TomlValue& value, const std::string& name) {
+    const TomlTable* table = table_of(value, name);
+    if (table == nullptr) return std::nullopt;
     const PlacedSelection* mesh = mesh_of(*table, value.place, name);
     const TomlValue* along = table->find("along");
     if (along == nullptr) problems_.add(value.place, name + ": 'along' is missing, the vertices of the side");
@@ -208,6 +216,11 @@ bool check_ties(const Seam& seam, const TomlValue& value, const Cloth& cloth, Pr
 std::optional<Seam> read_seam(const SeamTable& table, const TomlValue& value, const Cloth& cloth,
                               const std::deque<PlacedSelection>& meshes, Problems& problems) {
   SeamReader reader(cloth, meshes, problems);
+  if (meshes.empty()) {
+    reader.table_of(*table.a, "a");
+    reader.table_of(*table.b, "b");
+    return std::nullopt;
+  }
   const std::optional<Side> a = reader.side(*table.a, "a");
   const std::optional<Side> b = reader.side(*table.b, "b");
   if (!a || !b) return std::nullopt;

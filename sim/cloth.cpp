@@ -121,11 +121,17 @@ double area_of(const Triangle& t, const Vertices& x) {
 
 void share_mass_by_area(double density, Cloth& cloth) {
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(cloth.vertex_count());
+  std::vector<char> used(static_cast<std::size_t>(cloth.vertex_count()), 0);
   for (const Triangle& t : cloth.triangles) {
     const double third = density * area_of(t, cloth.rest) / 3;
-    for (const int vertex : t) masses[vertex] += third;
+    for (const int vertex : t) {
+      masses[vertex] += third;
+      used[static_cast<std::size_t>(vertex)] = 1;
+    }
   }
+  const double mean = masses.sum() / static_cast<double>(std::ranges::count(used, 1));
   for (Eigen::Index i = 0; i < masses.size(); ++i) {
+    if (used[static_cast<std::size_t>(i)] == 0) masses[i] = mean;
     if (!(masses[i] > 0)) {
       throw std::invalid_argument("no triangle at vertex " + std::to_string(i) +
                                   " has an area, so it has no mass by area");

@@ -168,6 +168,17 @@ TEST(SceneSeams, WrongOnesAreOneMessageEach) {
             "scene.toml:13:8: time must be at least 0, found -1");
 }
 
+TEST(SceneSeams, AreCheckedBesideAFaultyCloth) {
+  const SceneFolder folder;
+  EXPECT_EQ(
+      folder.problems("[cloth]\nmesh = { grid = [2, 0] }\nstiffness = 9\n[seam]\na = { alon = [], clot = \"a\" }\n"
+                      "b = 3\n"),
+      "scene.toml:2:21: mesh.grid[1] must be at least 1, found 0\n"
+      "scene.toml:5:7: a: unknown key 'alon'; did you mean 'along'?\n"
+      "scene.toml:5:18: a: unknown key 'clot'; did you mean 'cloth'?\n"
+      "scene.toml:6:5: b: expected { cloth = …, along = […] }, found a whole number");
+}
+
 TEST(SceneSeams, SidesThatCannotMeetAreErrors) {
   const SceneFolder folder;
   const std::string a = "[[cloth]]\nname = \"a\"\nmesh = { grid = [2, 2] }\nstiffness = 9\npins = [\"edge:x+\"]\n";

@@ -305,6 +305,23 @@ TEST(SceneVelocity, IsThatOfEveryVertexButThePins) {
   }
 }
 
+// Vertices of no triangle, as some programs export, neither fall nor take a share of the mass.
+TEST(SceneMesh, HoldsVerticesOfNoTriangle) {
+  const SceneFolder folder;
+  folder.write("a.obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\n");
+  for (const auto& [keys, mass] : {std::pair("mass = 0.6", 0.6), std::pair("density = 0.4", 0.2)}) {
+    const LoadedScene scene =
+        folder.load(std::string("[time]\nstep = 0.01\n[cloth]\nmesh = \"a.obj\"\nstiffness = 9\n") + keys);
+    const Cloth& cloth = scene.simulation.cloth;
+    EXPECT_EQ(cloth.pins, (std::vector{0})) << keys;
+    EXPECT_NEAR(cloth.masses.tail(3).sum(), mass, 1e-15) << keys;
+    EXPECT_GT(cloth.masses[0], 0);
+    ASSERT_EQ(scene.source.warnings.size(), 1U);
+    EXPECT_NE(scene.source.warnings[0].find("1 of its 4 vertices belongs to no triangle: they stay in place"),
+              std::string::npos);
+  }
+}
+
 TEST(SceneMass, IsSharedIntoPositiveParts) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems(cloth("mass = 5e-324")),

@@ -99,9 +99,9 @@ double size_of(const Cloth& cloth);
 Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffness, std::vector<int> pins);
 
 /// Distributes mass by area: each vertex gets a third of the mass of each adjacent rest triangle. So fine and coarse
-/// parts of a sheet have the same mass per area.
+/// parts of a sheet have the same mass per area. A vertex of no triangle gets the mean mass of the others.
 /// @param density of the cloth, positive [kg/m²]
-/// @throws std::invalid_argument if a vertex has no triangle with an area
+/// @throws std::invalid_argument if a vertex has triangles, and none with an area
 void share_mass_by_area(double density, Cloth& cloth);
 
 /// Gives every spring the stiffness E·A/l², with rest length l and area A of the rest triangles at it (Van Gelder 1998,
