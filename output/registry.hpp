@@ -53,6 +53,9 @@ struct FilmInfo {
   /// Makes a single picture a contact sheet of several moments; absent: it shows the last one.
   std::optional<SheetGrid> sheet = {};
 
+  /// True if the look's textures are in a temporary folder: a file that refers to one needs a copy.
+  bool temporary_textures = false;
+
   /// Called while Sink::finish() still encodes frames, with the number done and the total.
   std::function<void(int done, int total)> progress = {};
 

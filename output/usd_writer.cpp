@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "drape/core/error.hpp"
 #include "drape/core/rotation.hpp"
 #include "drape/render/image.hpp"
 #include "output/mesh_writers.hpp"
@@ -141,8 +142,45 @@ void UsdSamples::write(PartialFile& file, const std::string& indent, const std::
   file.write(indent + "}\n");
 }
 
+namespace {
+
+constexpr std::size_t most_bytes_of_copy = 1'000'000'000;
+
+/// Checks that the copy of a texture replaces no other file.
+void require_replaceable(const std::filesystem::path& copy, const std::filesystem::path& texture) {
+  require_writable(copy);
+  if (!std::filesystem::exists(copy) || read_file(copy, most_bytes_of_copy) == read_file(texture, most_bytes_of_copy)) {
+    return;
+  }
+  throw UsageError(
+      fmt::format("{} exists and is not the motion's texture, which is written there beside a .usda: "
+                  "rename it, or give the .usda another name",
+                  copy.string()));
+}
+
+/// Returns the names of the copies of a look's textures beside a file: film.texture.png, film.texture2.png.
+std::map<std::filesystem::path, std::filesystem::path> texture_copies(const std::filesystem::path& file,
+                                                                      const Look& look) {
+  std::map<std::filesystem::path, std::filesystem::path> copies;
+  const auto add = [&](const std::filesystem::path& texture) {
+    if (texture.empty() || copies.contains(texture)) return;
+    const std::string number = copies.empty() ? "" : std::to_string(copies.size() + 1);
+    copies[texture] = file.parent_path() / (file.stem().string() + ".texture" + number + texture.extension().string());
+  };
+  add(look.texture);
+  for (const ClothLook& cloth : look.cloths) add(cloth.texture);
+  return copies;
+}
+
+}  // namespace
+
 UsdWriter::UsdWriter(const std::filesystem::path& file, const FilmInfo& film)
-    : film_(film), file_(file), points_(file_, "its points"), extent_(file_, "its extents") {
+    : film_(film),
+      copies_(film.temporary_textures && film.look != nullptr ? texture_copies(file, *film.look) : decltype(copies_)()),
+      file_(file),
+      points_(file_, "its points"),
+      extent_(file_, "its extents") {
+  for (const auto& [texture, copy] : copies_) require_replaceable(copy, texture);
   if (film.cloth != nullptr) patch_ = ground_patch(film.cloth->positions);
 }
 
@@ -246,12 +284,18 @@ bool UsdWriter::several_looks() const {
          film_.look->cloths.size() == film_.cloth->pieces.size();
 }
 
+std::filesystem::path UsdWriter::lasting(const std::filesystem::path& texture) const {
+  const auto copy = copies_.find(texture);
+  return copy == copies_.end() ? texture : copy->second;
+}
+
 void UsdWriter::write_materials() {
   Look look = film_.look != nullptr ? *film_.look : Look{};
+  look.texture = lasting(look.texture);
   if (!several_looks()) return file_.write(usd_material("/Scene/ClothMaterial", look, file_.file()));
   for (std::size_t k = 0; k < look.cloths.size(); ++k) {
     look.color = look.cloths[k].color;
-    look.texture = look.cloths[k].texture;
+    look.texture = lasting(look.cloths[k].texture);
     file_.write(usd_material(material_of(film_.cloth->pieces[k]), look, file_.file()));
   }
 }
@@ -290,6 +334,10 @@ std::vector<OutputFile> UsdWriter::finish(Ending ending) {
   write_materials();
   write_colliders();
   file_.write("}\n");
+  for (const auto& [texture, copy] : copies_) {
+    require_replaceable(copy, texture);
+    write_file_atomically(copy, read_file(texture, most_bytes_of_copy));
+  }
   const std::uintmax_t size = file_.commit(ending);
   return {{file_.name(ending), size}};
 }

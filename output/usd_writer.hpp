@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ class UsdSamples {
 /// grow with the motion.
 class UsdWriter final : public MotionWriter {
  public:
+  /// @throws UsageError if the copy of a temporary texture, "film.texture.png", would replace another file
   UsdWriter(const std::filesystem::path& file, const FilmInfo& film);
 
   void add(const Frame& frame) override;
@@ -63,11 +65,14 @@ class UsdWriter final : public MotionWriter {
   /// Returns true if each of several cloths has a look of its own.
   [[nodiscard]] bool several_looks() const;
   void write_materials();
+  /// Returns the file of a texture for the stage: its copy, if there is one.
+  [[nodiscard]] std::filesystem::path lasting(const std::filesystem::path& texture) const;
   void write_faces(const std::vector<Triangle>& triangles);
   void write_colliders();
   void write_bodies(const std::string& color);
 
   FilmInfo film_;
+  std::map<std::filesystem::path, std::filesystem::path> copies_;  // of temporary textures, beside the file
   PartialFile file_;
   UsdSamples points_, extent_;
   std::vector<std::unique_ptr<Ball>> balls_;

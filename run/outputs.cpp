@@ -177,6 +177,7 @@ FilmInfo film_info(const Scene& scene, const RunOptions& options, Progress* prog
   film.camera = &scene.camera;
   film.largest_file = options.largest_file;
   film.sheet = options.sheet;
+  film.temporary_textures = options.recorded != nullptr;
   if (progress != nullptr) {
     film.progress = [progress](int done, int total) {
       if (done <= 1) progress->begin("encoding", "frames", total);

@@ -58,6 +58,31 @@ TEST(RecordedFrames, AreNotDrawnWhereThatIsInterrupted) {
   }
 }
 
+/// A motion's own texture is in a temporary folder while the motion is open.
+TEST(RecordedFrames, HaveACopyOfTheTextureBesideAUsdFile) {
+  const SceneFolder folder;
+  const std::string picture = content(std::filesystem::path(DRAPE_SOURCE_DIR) / "textures/plaid.png");
+  folder.write("mine.png", picture);
+  record(folder.load(recorded_scene + "[look]\ntexture = \"mine.png\"\n"), folder.path("m.drape"));
+  const auto write = [&] {
+    RunOptions options;
+    options.recorded = std::make_shared<MotionReader>(folder.path("m.drape"));
+    options.outputs = {folder.path("x.usda")};
+    const MotionScene opened(*options.recorded);
+    Progress progress;
+    run_scene(opened.scene(), options, {}, progress);
+    return content(folder.path("x.usda"));
+  };
+  const std::string text = write();
+  EXPECT_NE(text.find("inputs:file = @./x.texture.png@"), std::string::npos);
+  EXPECT_TRUE(content(folder.path("x.texture.png")) == picture);
+  EXPECT_TRUE(write() == text);
+  folder.write("x.texture.png", "mine");
+  EXPECT_NE(usage_error([&] { write(); }).find("x.texture.png exists and is not the motion's texture"),
+            std::string::npos);
+  EXPECT_EQ(content(folder.path("x.texture.png")), "mine");
+}
+
 TEST(RecordedFrames, AreThoseOfTheSimulation) {
   const SceneFolder folder;
   const LoadedScene scene = folder.load(recorded_scene);
