@@ -38,18 +38,29 @@ MotionHeader complete(MotionHeader header, const LoadedScene& scene) {
 fs::path free_growing_name(const fs::path& file, const PortableScene& scene) {
   require_not_growing(file);
   for (const PortableScene::File& input : scene.files) name_in_folder(input.name, input.place, "a scene's file");
-  if (file.has_parent_path()) fs::create_directories(file.parent_path());
   fs::path growing = growing_name(file);
+  if (growing.has_parent_path()) fs::create_directories(growing.parent_path());
   // A run was killed before its first checkpoint, or right after the file was complete.
   if (fs::exists(growing)) remove_unless_written(growing);
   fs::remove(checkpoint_name(file));
   return growing;
 }
 
+/// Returns a link's target, which may be on another file system; any other file, and a link without end, as it is.
+fs::path without_links(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_symlink(file, error)) return file;
+  try {
+    return link_target(file);
+  } catch (const fs::filesystem_error&) {
+    return file;
+  }
+}
+
 }  // namespace
 
-fs::path growing_name(const fs::path& file) { return file.string() + ".partial"; }
-fs::path checkpoint_name(const fs::path& file) { return file.string() + ".checkpoint"; }
+fs::path growing_name(const fs::path& file) { return without_links(file).string() + ".partial"; }
+fs::path checkpoint_name(const fs::path& file) { return without_links(file).string() + ".checkpoint"; }
 
 void require_not_growing(const fs::path& file) {
   const fs::path growing = growing_name(file);

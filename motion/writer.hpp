@@ -14,9 +14,10 @@ namespace drape {
 
 struct ResumePoint;
 
-/// Returns the name of a growing motion: "motion.drape.partial". Only a resumed run can use that file.
+/// Returns the name of a growing motion: "motion.drape.partial", beside a link's target. Only a resumed run can use
+/// that file.
 std::filesystem::path growing_name(const std::filesystem::path& file);
-/// Returns the name of the checkpoint: "motion.drape.checkpoint".
+/// Returns the name of the checkpoint: "motion.drape.checkpoint", beside a link's target.
 std::filesystem::path checkpoint_name(const std::filesystem::path& file);
 
 /// Protects a run that may be resumed from being overwritten.

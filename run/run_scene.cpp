@@ -469,7 +469,7 @@ MotionSpace motion_space(const Scene& scene, const RunOptions& options) {
   const double share = is_explicit(scene.simulation.integrator.method) ? std::min(1.0, undamped * usual) : usual;
   std::error_code error;
   const double there = options.from ? static_cast<double>(options.from->length) : 0;
-  const fs::space_info space = fs::space(folder_there(motion.path), error);
+  const fs::space_info space = fs::space(folder_there(growing_name(motion.path)), error);
   // If the file system does not tell its free space, assume that there is enough.
   const double free = error ? most : static_cast<double>(space.available);
   return {.expected = std::max(0.0, share * most - there), .most = std::max(0.0, most - there), .free = free};

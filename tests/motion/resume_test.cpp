@@ -257,6 +257,21 @@ TEST(ResumedRun, IsNotOverwrittenByANewOne) {
   EXPECT_EQ(record(scene, folder.path("m.drape")).outcome, Outcome::completed);
 }
 
+/// The complete file replaces a link's target, on whose file system the growing file is renamed.
+TEST(ResumedRun, GrowsBesideTheTargetOfALink) {
+  const SceneFolder folder;
+  const LoadedScene scene = folder.load(recorded_scene);
+  std::filesystem::create_directory(folder.path("disk"));
+  std::filesystem::create_symlink("disk/n.drape", folder.path("m.drape"));
+  record(scene, folder.path("m.drape"), {}, 10);
+  EXPECT_TRUE(std::filesystem::exists(folder.path("disk/n.drape.partial")));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("disk/n.drape.checkpoint")));
+  EXPECT_EQ(resume(folder.path("m.drape")).outcome, Outcome::completed);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path("m.drape")));
+  record(scene, folder.path("whole.drape"));
+  EXPECT_TRUE(content(folder.path("disk/n.drape")) == content(folder.path("whole.drape")));
+}
+
 TEST(ResumedRun, LeavesNothingWhereNoStepWasDone) {
   const SceneFolder folder;
   const LoadedScene scene = folder.load(recorded_scene);
