@@ -112,7 +112,8 @@ ExitCode resume_run(const RunArguments& arguments, const CommonOptions& common) 
   rest.outputs.clear();
   rest.overrides.clear();
   rest.steps.reset();
-  rest.frames = rest.every = {};
+  rest.frames = rest.every = rest.max_size = rest.keep = rest.start = rest.sheet = {};
+  rest.poster = false;
   afterwards.records = {};
   RunOptions later = run_options(afterwards, found->drawn, common.verbose);
   limit_to_motion(file, *found->options.steps, later);
