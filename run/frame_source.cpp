@@ -53,7 +53,7 @@ FilmExtent::FilmExtent(const Video& video, double h, std::int64_t step_count,
   if (frames.last > last) {
     throw UsageError(fmt::format("--frames {}..{}: the film ends with frame {}", frames.first, frames.last, last));
   }
-  if (frame_range || every) {
+  if (frame_range) {
     steps = std::min(steps, static_cast<std::int64_t>(std::ceil(time(frames.last) / h - rounding)));
   }
 }

@@ -30,7 +30,7 @@ struct FrameRange {
 
 /// The times of a film's frames. Frame k shows time k·speed/fps [s] or the end of step k·n, from 0 to the motion's end.
 struct FilmExtent {
-  std::int64_t steps;                 ///< steps to simulate: up to the last frame
+  std::int64_t steps;                 ///< steps to simulate: all, or up to the last of a range of frames
   double step;                        ///< step length h [s]
   std::optional<std::int64_t> every;  ///< n, if frames are counted in steps
   double seconds_per_frame;           ///< scene time from a frame to the next [s]

@@ -52,7 +52,7 @@ TEST(FilmExtent, RefusesFramesAfterTheEnd) {
 TEST(FilmExtent, CountsStepsWhereItIsTold) {
   const FilmExtent extent(video(25, 2), 0.02, 417, std::nullopt, 10);
   EXPECT_EQ(extent.frames.last, 41);
-  EXPECT_EQ(extent.steps, 410);  // the last seven have no frame
+  EXPECT_EQ(extent.steps, 417);  // the last seven have no frame, but a record of their own
   EXPECT_EQ(extent.time(41), 410 * 0.02);
   EXPECT_EQ(extent.seconds_per_frame, 0.2);
   EXPECT_EQ(FilmExtent(video(25, 1), 0.02, 417, FrameRange{3, 10}, 7).steps, 70);
