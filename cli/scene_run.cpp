@@ -219,13 +219,33 @@ std::string advice_on_pace(const Scene& scene) {
 
 namespace {
 
-/// Returns the command that resumes a run from its motion file and makes its other outputs.
+/// Returns the command that resumes a run from its motion file and makes its records and other outputs.
 std::string resume_command(const RunArguments& arguments, const std::string& motion) {
-  std::string text = fmt::format("drape {} --resume {}", arguments.drawing ? "render" : "simulate", shell_word(motion));
+  std::string text;
+  const auto add = [&text](const char* option, const std::string& value) {
+    if (!value.empty()) text += fmt::format(" {} {}", option, shell_word(value));
+  };
   for (const std::string& path : arguments.outputs) {
-    if (!is_motion_file(path)) text += " -o " + shell_word(path);
+    if (!is_motion_file(path)) add("-o", path);
   }
-  return text;
+  const bool drawn = arguments.drawing && !text.empty();  // render without -o would make a film
+  if (!text.empty()) {                                    // options that shape outputs
+    add("--every", arguments.every);
+    add("--frames", arguments.frames);
+    add("--at", arguments.times.at);
+    add("--from", arguments.times.from);
+    add("--to", arguments.times.to);
+    add("--sheet", arguments.sheet);
+    add("--max-size", arguments.max_size);
+    add("--keep", arguments.keep);
+    add("--start", arguments.start);
+    if (arguments.poster) text += " --poster";
+  }
+  add("--stats", arguments.records.stats);
+  add("--energies", arguments.records.energies);
+  add("--positions", arguments.records.positions);
+  add("--trace", arguments.records.trace);
+  return fmt::format("drape {} --resume {}{}", drawn ? "render" : "simulate", shell_word(motion), text);
 }
 
 }  // namespace

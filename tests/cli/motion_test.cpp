@@ -144,6 +144,22 @@ TEST(InterruptedRun, GoesOnToTheSameFilms) {
   }
 }
 
+/// The command that a run suggests at its early end has its records and the options that shape its films.
+TEST(InterruptedRun, GoesOnWithItsOptionsAndRecords) {
+  const SceneFolder folder;
+  folder.write("scene.toml", long_scene(all_methods[5]) + "[video]\nsize = [64, 48]\n");
+  const std::string rest = "-o film.gif --every 400 --max-size 1MB --start poster --poster --energies e.csv";
+  const Finished begun = signal_after(folder, "render scene.toml --steps 2000 -o m.drape " + rest, 0.2, "TERM");
+  ASSERT_EQ(begun.code, 130) << begun.text;
+  EXPECT_NE(begun.text.find("and drape render --resume m.drape " + rest + " continues it"), std::string::npos)
+      << begun.text;
+  const Finished ended = drape(folder, "render --resume m.drape " + rest);
+  EXPECT_EQ(ended.code, 0) << ended.text;
+  for (const std::string name : {"m.drape", "film.gif", "film.poster.png", "e.csv"}) {
+    EXPECT_TRUE(is_there(folder, name)) << name;
+  }
+}
+
 TEST(InterruptedRun, DoesNotGoOnWhereItsFilmsCannotBeMade) {
   const SceneFolder folder;
   folder.write("scene.toml", long_scene(all_methods[4]));
