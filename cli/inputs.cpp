@@ -430,8 +430,9 @@ void limit_to_motion(const std::string& file, std::int64_t last_step, RunOptions
        {std::pair{"--stats", records.stats}, std::pair{"--energies", records.energies},
         std::pair{"--positions", records.positions}, std::pair{"--trace", records.trace}}) {
     if (path.empty()) continue;
-    throw UsageError(
-        fmt::format("{} needs a simulation, and {} is only read: use it with drape simulate", option, file));
+    const std::string remedy =
+        is_motion_file(file) ? fmt::format(": use drape simulate --resume {} {} {}", file, option, path) : "";
+    throw UsageError(fmt::format("{} needs a simulation, and {} is only read{}", option, file, remedy));
   }
   if (options.motion) throw UsageError(fmt::format("-o {}: {} is already a motion file", options.motion->path, file));
 }

@@ -139,7 +139,8 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
   SceneProblems problems;
   for (const std::string& file : arguments.scenes) {
     if ((is_motion_file(file) || is_importable(file)) && !arguments.drawing) {
-      throw UsageError(fmt::format("{} is already a motion: use drape render to draw it", file));
+      throw UsageError(fmt::format("{0} is already a motion: use drape render to draw it{1}", file,
+                                   is_motion_file(file) ? ", or --resume " + file + " for its records" : ""));
     }
     try {
       all.push_back(open_scene(file, arguments.overrides, arguments.look));

@@ -244,9 +244,12 @@ TEST(MotionOnTheCommandLine, SaysWhatIsWrong) {
     EXPECT_EQ(finished.code, code) << arguments;
     return finished.text;
   };
-  EXPECT_EQ(text("simulate m.drape"), "drape: m.drape is already a motion: use drape render to draw it\n");
-  EXPECT_EQ(text("render m.drape --energies e.csv"),
-            "drape: --energies needs a simulation, and m.drape is only read: use it with drape simulate\n");
+  EXPECT_EQ(text("simulate m.drape"),
+            "drape: m.drape is already a motion: use drape render to draw it, or --resume m.drape for its records\n");
+  EXPECT_EQ(
+      text("render m.drape --energies e.csv"),
+      "drape: --energies needs a simulation, and m.drape is only read: use drape simulate --resume m.drape --energies "
+      "e.csv\n");
   EXPECT_EQ(text("render m.drape -o n.drape"), "drape: -o n.drape: m.drape is already a motion file\n");
   EXPECT_EQ(text("render m.drape --steps 30"), "drape: --steps 30: m.drape has 20\n");
   EXPECT_EQ(text("render m.drape --scene other.toml"),
