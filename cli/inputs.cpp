@@ -20,6 +20,7 @@
 #include "core/installation.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
+#include "drape/scene/document.hpp"
 #include "drape/scene/scene.hpp"
 #include "drape/sim/settings.hpp"
 #include "motion/import/import_motion.hpp"
@@ -362,12 +363,15 @@ SceneToRun open_scene(const std::string& file, const std::vector<std::string>& o
   }
   if (is_motion_file(file)) return open_motion(file, overrides, look);
   if (is_importable(file)) return open_import(file, overrides, look);
-  if (const auto of_motion = load_scene_of_motion(file, overrides)) {
+  const TomlValue document = read_document(file);  // once: the file may be a pipe
+  if (const auto of_motion = load_scene_of_motion(document, file, overrides)) {
     if (!look.empty())
       throw UsageError(fmt::format("{}: it says itself how its motion looks: omit --scene", shown(file)));
     return open_scene_of_motion(file, *of_motion);
   }
-  return {load_scene(file, overrides), nullptr};
+  LoadedScene scene = make_scene(document, file, overrides);
+  scene.source.inputs.emplace_back(file);
+  return {std::move(scene), nullptr};
 }
 
 std::vector<SceneToRun> open_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides) {

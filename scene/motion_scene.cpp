@@ -115,7 +115,11 @@ TableType named_motion_table(NamedMotion& motion, const TomlValue*& body) {
 }
 
 std::optional<SceneOfMotion> load_scene_of_motion(const fs::path& file, const std::vector<std::string>& overrides) {
-  TomlValue document = read_document(file);
+  return load_scene_of_motion(read_document(file), file, overrides);
+}
+
+std::optional<SceneOfMotion> load_scene_of_motion(TomlValue document, const fs::path& file,
+                                                  const std::vector<std::string>& overrides) {
   Problems problems(file, overrides);
   apply_overrides(document, overrides, problems);
   TomlTable& root = *document.as<TomlTable>();

@@ -33,6 +33,10 @@ struct SceneOfMotion {
 std::optional<SceneOfMotion> load_scene_of_motion(const std::filesystem::path& file,
                                                   const std::vector<std::string>& overrides = {});
 
+/// Makes a scene of a motion from a parsed document, likewise.
+std::optional<SceneOfMotion> load_scene_of_motion(TomlValue document, const std::filesystem::path& file,
+                                                  const std::vector<std::string>& overrides);
+
 /// Returns the table [cloth] of such a scene; its keys write to `motion`.
 /// @param body a string, or an array of strings
 TableType named_motion_table(NamedMotion& motion, const TomlValue*& body);

@@ -196,6 +196,24 @@ TEST(CommandLine, TakesAFrameAfterEverySoManySteps) {
   EXPECT_EQ(drape(folder, "simulate scene.toml -o x.obj --every 0").code, 2);
 }
 
+TEST(CommandLine, TakesTheStepsAfterTheLastFrame) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene);  // 20 steps
+  EXPECT_EQ(drape(folder, "simulate scene.toml --positions whole.csv").code, 0);
+  EXPECT_EQ(drape(folder, "simulate scene.toml -o x.npz --every 30 --positions every.csv").code, 0);
+  EXPECT_EQ(test::content(folder.path("every.csv")), test::content(folder.path("whole.csv")));
+}
+
+TEST(CommandLine, ReadsASceneFromAPipe) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const test::Finished piped = test::run_shell(
+      folder, "cat scene.toml | " + std::string(DRAPE_EXECUTABLE) + " simulate /dev/stdin --positions piped.csv");
+  EXPECT_EQ(piped.code, 0) << piped.text;
+  EXPECT_EQ(drape(folder, "simulate scene.toml --positions whole.csv").code, 0);
+  EXPECT_EQ(test::content(folder.path("piped.csv")), test::content(folder.path("whole.csv")));
+}
+
 TEST(CommandLine, TakesFramesByTime) {
   const test::SceneFolder folder;
   folder.write("scene.toml", scene);  // 20 steps of 0.02 s, and a frame every 0.04 s
