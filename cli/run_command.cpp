@@ -97,6 +97,17 @@ ExitCode make_of_motion(const std::string& file, const RunArguments& arguments, 
   return ExitCode::ok;
 }
 
+/// Checks the files of a resumed run together with those of the outputs made afterwards.
+/// @param drawn scene of these outputs, with the motion among its inputs
+/// @throws UsageError as for a run that does both at once
+void require_distinct_resumed_files(const std::string& motion, LoadedScene drawn, const RunOptions& run,
+                                    RunOptions later) {
+  std::erase(drawn.source.inputs, motion);
+  later.motion = run.motion;
+  later.records = run.records;
+  require_distinct_files({std::move(drawn)}, {std::move(later)});
+}
+
 /// Resumes a run, then makes the requested outputs of the whole motion.
 ExitCode resume_run(const RunArguments& arguments, const CommonOptions& common) {
   if (!arguments.scenes.empty()) {
@@ -126,6 +137,7 @@ ExitCode resume_run(const RunArguments& arguments, const CommonOptions& common) 
   options.threads = own.threads;
   options.time_effects = own.time_effects;
   options.motion->checkpoint_seconds = arguments.checkpoint_seconds;
+  require_distinct_resumed_files(file, found->drawn, options, later);
   require_outputs(*found->scene, options);
   const ExitCode code = run(*found->scene, options, arguments, common);
   if (code != ExitCode::ok || arguments.outputs.empty()) return code;

@@ -178,6 +178,12 @@ TEST(InterruptedRun, DoesNotGoOnWhereItsFilmsCannotBeMade) {
   EXPECT_NE(
       refused("render --resume m.drape -o x.gif --set cloth.stiffness=60").find("cloth.stiffness: 50, and 60 in --set"),
       std::string::npos);
+  for (const auto& [arguments, files] :
+       {std::pair("simulate --resume m.drape --energies x.csv --trace x.csv", "--energies x.csv and --trace x.csv"),
+        std::pair("simulate --resume m.drape -o x.obj --energies x.obj", "-o x.obj and --energies x.obj"),
+        std::pair("simulate --resume m.drape --energies m.drape", "-o m.drape and --energies m.drape")}) {
+    EXPECT_EQ(refused(arguments), "drape: " + std::string(files) + " write the same file\n");
+  }
   EXPECT_NE(refused("simulate --resume m.drape --frames 0..3").find("and there is no -o"), std::string::npos);
   EXPECT_EQ(refused("simulate scene.toml --resume m.drape"),
             "drape: --resume m.drape continues the run of its own scene, and takes no SCENE\n");
