@@ -157,7 +157,7 @@ void GltfMorphedMesh::write(PartialFile& file) {
 
 namespace {
 
-constexpr std::size_t most_frames = 3000;  // each time of the animation stores the weights of all targets
+constexpr int most_frames = 3000;  // each time of the animation stores the weights of all targets
 constexpr std::size_t most_texture_bytes = 64'000'000;
 
 std::string material(const std::string& name, const Rgb& color, const std::string& more = {}) {
@@ -186,6 +186,12 @@ std::string padded(std::string text, char with) {
 }  // namespace
 
 GlbWriter::GlbWriter(const std::filesystem::path& file, const FilmInfo& film) : film_(film), file_(file) {
+  if (film.expected_frames > most_frames) {
+    throw UsageError(
+        fmt::format("{}: a .glb holds {} frames at most, as each is a morph target, and the film has {}: choose fewer, "
+                    "with --frames or --every",
+                    file.string(), most_frames, film.expected_frames));
+  }
   if (film.cloth != nullptr) patch_ = ground_patch(film.cloth->positions);
 }
 
@@ -253,12 +259,6 @@ void GlbWriter::add_first(const Frame& frame) {
 
 void GlbWriter::add(const Frame& frame) {
   if (times_.empty()) add_first(frame);
-  if (times_.size() == most_frames) {
-    throw OutputError(
-        fmt::format("{}: a .glb holds {} frames at most, as each is a morph target: choose fewer, with "
-                    "--frames or --every",
-                    file_.file().string(), most_frames));
-  }
   times_.push_back(static_cast<float>(static_cast<double>(times_.size()) / film_.fps));
   for (const Sheet& sheet : sheets_) {
     sheet.mesh->add(frame.positions.middleRows(sheet.first_vertex, sheet.vertex_count));

@@ -86,6 +86,13 @@ TEST_F(Glb, HasAMorphTargetForEachFrameAfterTheFirst) {
   EXPECT_EQ(json["buffers"][0]["byteLength"].get<std::size_t>() / 4, binary.size() / 4);
 }
 
+TEST_F(Glb, RefusesTooManyFramesBeforeTheFirst) {
+  film.expected_frames = 3000;
+  EXPECT_NO_THROW(GlbWriter(path("x.glb"), film));
+  film.expected_frames = 3001;
+  EXPECT_THROW(GlbWriter(path("x.glb"), film), UsageError);
+}
+
 TEST_F(Glb, HasNoAnimationWhereNothingMoves) {
   write(0);
   EXPECT_FALSE(json.contains("animations"));
