@@ -27,6 +27,13 @@ UsdPath moving_prim(const UsdStage& stage) {
   stage.source().fail("there is neither a Mesh nor a Sphere nor a moving prim in the file");
 }
 
+/// Returns the time of a time code [s].
+double seconds(double code, const UsdLayer& layer, const UsdPrim& prim) {
+  const double time = (code - layer.start_time_code) / layer.time_codes_per_second;
+  if (!std::isfinite(time)) prim.place.fail("the times of its samples overflow in seconds");
+  return time;
+}
+
 void bound_points(const UsdAttribute& points, TransformTrack& track) {
   if (points.components != 3 || !points.is_array || points.first() == nullptr) {
     points.place.fail("points: expected an array of point3f, found " + points.type);
@@ -39,13 +46,20 @@ void bound_points(const UsdAttribute& points, TransformTrack& track) {
   track.radius = (positions.colwise() - track.center).colwise().stableNorm().maxCoeff();
 }
 
-void bound_sphere(const UsdPrim& prim, TransformTrack& track) {
+void bound_sphere(const UsdPrim& prim, const UsdLayer& layer, TransformTrack& track) {
   track.radius = 1;  // default of a Sphere in the USD schema
   const UsdAttribute* radius = prim.find("radius");
   if (radius == nullptr || radius->first() == nullptr) return;
   if (radius->components != 1 || radius->is_array) radius->place.fail("radius: expected one number");
-  track.radius = radius->first()->numbers[0];
-  if (track.radius <= 0) radius->first()->place.fail("radius: expected a positive number");
+  const auto positive = [](const UsdValue& value) {
+    if (value.numbers[0] <= 0) value.place.fail("radius: expected a positive number");
+    return value.numbers[0];
+  };
+  track.radius = positive(*radius->first());
+  for (const UsdSample& sample : radius->samples) {
+    track.radius_times.push_back(seconds(sample.time, layer, prim));
+    track.radii.push_back(positive(sample.value));
+  }
 }
 
 class UsdSphereTrack final : public SphereTrack {
@@ -66,10 +80,16 @@ Eigen::Affine3d TransformTrack::at(double time) const {
   return result;
 }
 
+double TransformTrack::radius_at(double time) const {
+  if (radii.empty()) return radius;
+  const auto [before, after, share] = between(radius_times, time);
+  return radii[before] + share * (radii[after] - radii[before]);
+}
+
 SphereShape TransformTrack::sphere_at(double time) const {
   const Eigen::Affine3d transform = at(time);
   const double stretch = Eigen::JacobiSVD<Eigen::Matrix3d>(transform.linear()).singularValues()[0];
-  return {transform * center, stretch * radius};
+  return {transform * center, stretch * radius_at(time)};
 }
 
 TransformTrack read_usd_track(const UsdStage& stage, const UsdPath& path) {
@@ -80,12 +100,11 @@ TransformTrack read_usd_track(const UsdStage& stage, const UsdPath& path) {
   std::vector<double> time_codes = transform_times(path);
   if (time_codes.empty()) time_codes.push_back(layer.start_time_code);
   for (const double code : time_codes) {
-    track.times.push_back((code - layer.start_time_code) / layer.time_codes_per_second);
-    if (!std::isfinite(track.times.back())) prim.place.fail("the times of its samples overflow in seconds");
+    track.times.push_back(seconds(code, layer, prim));
     track.transforms.push_back(world_transform(stage, path, code));
   }
   if (prim.type == "Mesh" && prim.find("points") != nullptr) bound_points(*prim.find("points"), track);
-  if (prim.type == "Sphere") bound_sphere(prim, track);
+  if (prim.type == "Sphere") bound_sphere(prim, layer, track);
   return track;
 }
 
@@ -121,7 +140,7 @@ std::shared_ptr<const SphereTrack> read_sphere_track(const std::filesystem::path
                     in_quotes(mesh.name), escape_controls(mesh.path)));
   }
   TransformTrack track = read_usd_track(stage, path);
-  if (track.times.size() < 2) {
+  if (track.times.size() < 2 && track.radii.size() < 2) {
     source.fail("nothing moves in the file: expected a Mesh, a Sphere or an Xform with time samples of its transform");
   }
   return std::make_shared<UsdSphereTrack>(std::move(track));

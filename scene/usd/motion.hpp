@@ -22,6 +22,11 @@ struct TransformTrack {
   /// icosphere or a UV sphere that is the sphere itself; an object without a shape has radius 0.
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double radius = 0;
+  std::vector<double> radius_times = {};  ///< sample times of a Sphere's radius, increasing [s]; empty: constant
+  std::vector<double> radii = {};         ///< one per time
+
+  /// Returns the radius in object units at a time [s], constant outside the samples.
+  [[nodiscard]] double radius_at(double time) const;
 
   /// Returns the transform at a time [s], constant outside the samples. In between each matrix element is interpolated
   /// linearly as in USD, so rotations need dense samples.

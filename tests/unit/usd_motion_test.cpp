@@ -180,6 +180,20 @@ TEST(UsdMotion, BoundsTheShapeByASphereThatFollowsUnitsAndUpAxis) {
   EXPECT_NEAR(track.sphere_at(0).radius, 0.1, 1e-16);
 }
 
+// A sphere of its own radius over time, which may move or stand still.
+TEST(UsdMotion, ChangesTheRadiusOfASphere) {
+  const std::string radius = "double radius.timeSamples = { 10: 0.2, 30: 0.6 }\n";
+  for (const std::string moves : {"",
+                                  "double3 xformOp:translate.timeSamples = { 10: (0, 0, 0), 30: (0, 0, 1) }\n"
+                                  "uniform token[] xformOpOrder = [\"xformOp:translate\"]"}) {
+    const test::ScratchFolder folder;
+    const auto track = read_sphere_track(folder.put(folder.path() / "ball.usda", ball(radius + moves)));
+    EXPECT_NEAR(track->at(0).radius, 0.2, 1e-15);
+    EXPECT_NEAR(track->at(0.5).radius, 0.4, 1e-15);
+    EXPECT_NEAR(track->at(2).radius, 0.6, 1e-15);
+  }
+}
+
 // The result is a sphere that must contain all points of the stretched shape.
 TEST(UsdMotion, HoldsAStretchedShapeWhole) {
   for (const char* scale : {"(2, 3, 5)", "(5, 2, 3)", "(-5, 3, 2)"}) {
