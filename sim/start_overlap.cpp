@@ -18,6 +18,16 @@ bool has_any(const std::vector<int>& sorted, const Vertices& vertices) {
   return std::ranges::any_of(vertices, [&](int v) { return std::ranges::binary_search(sorted, v); });
 }
 
+/// Finds edges that pass through triangles, also where they are aligned exactly; sorted by edges.
+std::vector<Intersection> all_intersections(const std::vector<Edge>& edges, const std::vector<Triangle>& triangles,
+                                            const std::vector<Point>& points) {
+  std::vector<Intersection> found = find_intersections(edges, triangles, points);
+  const std::vector<Intersection> aligned = find_intersections_at_vertices(edges, triangles, points);
+  found.insert(found.end(), aligned.begin(), aligned.end());
+  std::ranges::stable_sort(found, {}, &Intersection::edge);
+  return found;
+}
+
 /// Visitor that collects the overlap of a cloth with a shape.
 class OverlapFinder {
  public:
@@ -46,7 +56,7 @@ class OverlapFinder {
   /// Collects crossings of the cloth with itself, those of pinned triangles as well.
   void find_across_itself() {
     const std::vector<Edge> edges = unique_edges(cloth_.triangles);
-    for (const Intersection& found : find_intersections(edges, cloth_.triangles, points_)) {
+    for (const Intersection& found : all_intersections(edges, cloth_.triangles, points_)) {
       crossed_.push_back(static_cast<int>(found.triangle));
       edges_.push_back(found.edge);
     }
@@ -84,7 +94,7 @@ class OverlapFinder {
     for (Triangle& triangle : body) {
       for (int& vertex : triangle) vertex += count;
     }
-    const std::vector<Intersection> all = find_intersections(unique_edges(cloth_.triangles), body, points_);
+    const std::vector<Intersection> all = all_intersections(unique_edges(cloth_.triangles), body, points_);
     for (std::size_t k = 0; k < all.size();) {
       const Edge edge = all[k].edge;
       Point middle = Point::Zero();
@@ -95,7 +105,7 @@ class OverlapFinder {
       const auto closest = mesh.find(middle / found, 0);
       if (!mesh.solid() || (closest && -closest->distance > rounding_)) edges_.push_back(edge);
     }
-    for (const Intersection& found : find_intersections(unique_edges(body), cloth_.triangles, points_)) {
+    for (const Intersection& found : all_intersections(unique_edges(body), cloth_.triangles, points_)) {
       if (!has_any(cloth_.pins, cloth_.triangles[found.triangle])) {
         crossed_.push_back(static_cast<int>(found.triangle));
       }
@@ -202,6 +212,23 @@ std::string describe(const StartOverlap& start, const SimulationSettings& settin
 std::string overlap_advice(const StartOverlap& overlap, const SimulationSettings& settings) {
   return fmt::format("the cloth begins with {}: {}", describe(overlap, settings),
                      overlap.overlap.contact ? "they are separated step by step" : "it is thrown out of there");
+}
+
+bool begins_too_near(const SimulationSettings& settings) {
+  constexpr double rounding = 1e-6;  // of the contact distance
+  const System system = make_system(settings);
+  const Vertices& x = settings.cloth.positions;
+  const std::vector<double> inverse = inverse_masses(settings.cloth);
+  std::vector<ContactConstraint> found;
+  for (const auto& source : system.contacts) {
+    source->begin(x, 0, 0);
+    source->find(x, 0, {}, found);
+  }
+  const bool near = std::ranges::any_of(found, [&](const ContactConstraint& contact) {
+    const double now = contact.normal.dot(contact.place(x));
+    return contact.can_move(inverse) && now < contact.distance - rounding * std::abs(contact.distance);
+  });
+  return near || std::ranges::any_of(start_overlaps(settings), [](const auto& start) { return start.overlap.contact; });
 }
 
 }  // namespace drape

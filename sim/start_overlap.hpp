@@ -45,4 +45,8 @@ std::string describe(const StartOverlap& overlap, const SimulationSettings& sett
 /// Returns the notice for one of start_overlaps(): "the cloth begins with …: they are separated step by step".
 std::string overlap_advice(const StartOverlap& overlap, const SimulationSettings& settings);
 
+/// Returns true if the cloth begins across an obstacle or itself, or nearer than its contact distance. Separation then
+/// does work on it.
+bool begins_too_near(const SimulationSettings& settings);
+
 }  // namespace drape

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "sim/collision/spatial_index.hpp"
 
@@ -180,6 +181,79 @@ std::vector<Intersection> find_intersections(const std::vector<Edge>& edges, con
     });
     std::ranges::sort(passed);
     for (const std::size_t triangle : passed) found.push_back({edge, triangle});
+  }
+  return found;
+}
+
+namespace {
+
+/// Returns the axes and diagonals of a cube, turned: no symmetry of meshes has these directions.
+std::vector<Point> scattered_directions() {
+  const Eigen::AngleAxisd turn(0.3713, Point(0.317, 0.593, 0.741).normalized());
+  std::vector<Point> directions;
+  for (int i = 0; i < 27; ++i) {
+    const Point way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    if (way.cwiseAbs().sum() == 1 || way.cwiseAbs().sum() == 3) directions.push_back(turn * way.normalized());
+  }
+  return directions;
+}
+
+bool has_vertex(const Triangle& triangle, int v) { return std::ranges::find(triangle, v) != triangle.end(); }
+
+}  // namespace
+
+std::vector<Intersection> find_intersections_at_vertices(const std::vector<Edge>& edges,
+                                                         const std::vector<Triangle>& triangles,
+                                                         const std::vector<Point>& points) {
+  const auto place = [&](int v) -> const Point& { return points[static_cast<std::size_t>(v)]; };
+  std::map<int, std::vector<Edge>> spokes;
+  for (const Edge& edge : edges) {
+    for (const int v : edge) spokes[v].push_back(edge);
+  }
+  double largest = 0;
+  for (const Point& point : points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
+  const double rounding = 2 * place_rounding * largest;
+  std::vector<Box> boxes;
+  for (const Triangle& t : triangles) boxes.push_back(box_of_paths(t, points, points));
+  SpatialHash hash;
+  hash.build(boxes);
+  static const std::vector<Point> directions = scattered_directions();
+  std::vector<Intersection> found;
+  for (const auto& [vertex, around] : spokes) {
+    const int v = vertex;  // clang 14 lets no lambda capture a structured binding
+    const Point margin = Point::Constant(rounding);
+    std::vector<std::size_t> touched;
+    hash.for_overlapping(Box(place(v) - margin, place(v) + margin), [&](int k) {
+      const Triangle& t = triangles[static_cast<std::size_t>(k)];
+      if (has_vertex(t, v)) return;
+      const double squared =
+          nearest(Feature::vertex_triangle, {place(v), place(t[0]), place(t[1]), place(t[2])}).squared;
+      if (squared <= rounding * rounding) touched.push_back(static_cast<std::size_t>(k));
+    });
+    if (touched.empty()) continue;
+    std::ranges::sort(touched);
+    double longest = 0;
+    for (const auto& [i, j] : around) longest = std::max(longest, (place(i) - place(j)).norm());
+    std::vector<Intersection> first;
+    for (const Point& direction : directions) {
+      const Point moved = 1e-6 * longest * direction;
+      std::vector<Intersection> now;
+      for (const Edge& edge : around) {
+        for (const std::size_t k : touched) {
+          const Triangle& t = triangles[k];
+          if (has_vertex(t, edge[0]) || has_vertex(t, edge[1])) continue;
+          if (passes_through(place(edge[0]) + moved, place(edge[1]) + moved, place(t[0]), place(t[1]), place(t[2]))) {
+            now.push_back({edge, k});
+          }
+        }
+      }
+      if (first.empty()) first = now;
+      if (now.empty()) {
+        first.clear();
+        break;
+      }
+    }
+    found.insert(found.end(), first.begin(), first.end());
   }
   return found;
 }

@@ -82,4 +82,11 @@ struct Intersection {
 std::vector<Intersection> find_intersections(const std::vector<Edge>& edges, const std::vector<Triangle>& triangles,
                                              const std::vector<Point>& points);
 
+/// Finds the edges through which a surface passes a triangle exactly at a vertex, where find_intersections() sees no
+/// edge on both sides. The edges at a vertex on a triangle pass through wherever they are displaced a little; a surface
+/// that only touches is free in some direction.
+std::vector<Intersection> find_intersections_at_vertices(const std::vector<Edge>& edges,
+                                                         const std::vector<Triangle>& triangles,
+                                                         const std::vector<Point>& points);
+
 }  // namespace drape

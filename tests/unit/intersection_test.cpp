@@ -57,6 +57,33 @@ Mesh pierced_sheet(double x, double y, double depth) {
   return joined(make_grid(20, 20), spike);
 }
 
+std::size_t count_at_vertices(const Mesh& mesh) {
+  std::vector<Point> points;
+  for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) points.emplace_back(mesh.positions.row(i).transpose());
+  return find_intersections_at_vertices(unique_edges(mesh.triangles), mesh.triangles, points).size();
+}
+
+// Two grids at right angles whose vertices lie in each other's plane, and grids that stand or lie on one another.
+TEST(Intersection, AtVerticesIsWhereSheetsCrossAndNotWhereTheyTouch) {
+  const Mesh grid = make_grid(4, 4);
+  Random random;
+  for (int i = 0; i < tries(100); ++i) {
+    const bool still = i == 0;
+    const auto upright = [&](const Eigen::RowVector3d& shift) {
+      Mesh other = grid;
+      other.positions = grid.positions * turned(0, 90, 0).transpose();
+      other.positions.rowwise() += shift;
+      const Mesh both = joined(grid, other);
+      return count_at_vertices(still ? both : placed(both, random));
+    };
+    EXPECT_GT(upright({0, 0, 0}), 0U) << i;
+    EXPECT_GT(upright({0.5, 0.5, 0.5}), 0U) << i;
+    EXPECT_EQ(upright({0, 0, 1}), 0U) << i << ", stands on it";
+    EXPECT_EQ(upright({1, 0, 0}), 0U) << i << ", at its border";
+    EXPECT_EQ(count_at_vertices(still ? joined(grid, grid) : placed(joined(grid, grid), random)), 0U) << i;
+  }
+}
+
 TEST(Intersection, IsNotWhereAFlatClothIsTurned) {
   for (const double x : {0, 10, 30, 45, 60, 77, 90}) {
     for (const double y : {0, 20, 40}) {
