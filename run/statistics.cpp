@@ -7,11 +7,12 @@
 #include <numeric>
 
 #include "drape/scene/scene.hpp"
+#include "sim/start_overlap.hpp"
 
 namespace drape {
 
 void EnergyRise::begin(const Simulation& simulation) {
-  watches_ = simulation.only_loses_energy();
+  watches_ = simulation.only_loses_energy() && !begins_too_near(simulation.settings());
   from_start_ = simulation.has_push();
   every_ = is_explicit(simulation.settings().integrator.method) ? check_interval : 1;
   if (watches_ && simulation.state().step == 0) note(simulation.energies());

@@ -20,6 +20,7 @@
 #include "reports/components.hpp"
 #include "reports/page.hpp"
 #include "run/run_scene.hpp"
+#include "sim/start_overlap.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -334,6 +335,9 @@ class EnergyBook {
 std::string cause_of_rises(const Scene& scene, const System& system) {
   if (is_explicit(scene.simulation.integrator.method)) return "the energy of an explicit method oscillates";
   if (!system.only_loses_energy()) return "something that moves, blows or attracts may do work on the cloth";
+  if (begins_too_near(scene.simulation)) {
+    return "the cloth begins nearer than its contact distance, and separation does work on it";
+  }
   return {};
 }
 

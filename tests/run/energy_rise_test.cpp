@@ -121,5 +121,17 @@ TEST(EnergyRise, IsNotAskedForWhereSomethingGivesEnergyOrNothingTouches) {
   }
 }
 
+// A cloth nearer than the contact distance is pushed out, which is no fault of a method.
+TEST(EnergyRise, IsNotAskedForWhereTheClothBeginsTooNear) {
+  for (const double height : {-0.3, -0.001, 0.0}) {
+    SimulationSettings settings = falling_sheet(180, {.height = 0});
+    const double lowest = settings.cloth.positions.col(2).minCoeff();
+    settings.effects = {Gravity{}};
+    settings.effects.add(Ground{.height = lowest + height, .thickness = 0.02});
+    settings.integrator.method = Method::quasi_newton;
+    EXPECT_EQ(watch(settings).energy_rise().has_value(), height < -0.1) << height;
+  }
+}
+
 }  // namespace
 }  // namespace drape::test
