@@ -147,10 +147,38 @@ CameraPath moving(const Camera& camera, const KnownFilm& film) {
   return CameraPath(std::move(views));
 }
 
+/// Returns the film with vertices of no triangle, which are not drawn, at the place of one that is.
+KnownFilm without_unused(KnownFilm film) {
+  std::vector<char> used;
+  for (const Triangle& triangle : film.triangles) {
+    for (const int v : triangle) {
+      if (static_cast<std::size_t>(v) >= used.size()) used.resize(static_cast<std::size_t>(v) + 1, 0);
+      used[static_cast<std::size_t>(v)] = 1;
+    }
+  }
+  if (used.empty()) return film;
+  film.pass = [used, pass = film.pass](const std::function<void(const Frame&)>& take) {
+    const auto first = static_cast<Eigen::Index>(std::ranges::find(used, 1) - used.begin());
+    pass([&](const Frame& frame) {
+      const auto count = static_cast<std::size_t>(frame.positions.rows());
+      if (count == used.size() && std::ranges::find(used, 0) == used.end()) return take(frame);
+      Frame drawn = frame;
+      for (std::size_t v = 0; v < count; ++v) {
+        if (v >= used.size() || used[v] == 0) {
+          drawn.positions.row(static_cast<Eigen::Index>(v)) = frame.positions.row(first);
+        }
+      }
+      take(drawn);
+    });
+  };
+  return film;
+}
+
 }  // namespace
 
-CameraPath camera_path(const Camera& given, const KnownFilm& film) {
-  if (!needs_motion(given)) return turning(fixed_view(given), given, film.count);
+CameraPath camera_path(const Camera& given, const KnownFilm& known) {
+  if (!needs_motion(given)) return turning(fixed_view(given), given, known.count);
+  const KnownFilm film = without_unused(known);
   const Camera camera = well_placed(given, film);
   if (!camera.position && (camera.follow || camera.orbit != 0)) return moving(camera, film);
   Framing framing(camera, film.aspect);
