@@ -9,6 +9,7 @@
 #include <exception>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -42,7 +43,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto look_again = std::chrono::milliseconds(100);
-constexpr std::size_t most_film_bytes = std::size_t{1} << 30;
+constexpr std::size_t most_film_bytes = std::size_t{1} << 30, most_scene_bytes = std::size_t{1} << 24;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -54,6 +55,21 @@ std::vector<std::string> lines_of(std::string_view text) {
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return lines;
+}
+
+/// Adds the files that a scene may name: its quoted texts, as paths beside it. They need not exist.
+void add_named_files(const std::filesystem::path& scene, std::vector<std::filesystem::path>& files) {
+  std::string text;
+  try {
+    text = read_file(scene, most_scene_bytes);
+  } catch (const Error&) {
+    return;  // reported when it is drawn
+  }
+  static const std::regex quoted(R"re("([^"\n]{1,255})"|'([^'\n]{1,255})')re");
+  for (std::sregex_iterator match(text.begin(), text.end(), quoted), end; match != end; ++match) {
+    const std::filesystem::path file = scene.parent_path() / ((*match)[1].matched ? (*match)[1] : (*match)[2]).str();
+    if (std::ranges::find(files, file) == files.end()) files.push_back(file);
+  }
 }
 
 }  // namespace
@@ -79,6 +95,8 @@ void WatchSession::publish(const std::function<void(WatchedFilm&)>& change) {
 
 void WatchSession::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
+    // The loader tells the files of a valid scene only.
+    add_named_files(file_, inputs_);
     stamps_ = FileStamps(inputs_);
     publish([](WatchedFilm& film) { film.running = true; });
     try {
