@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <string_view>
@@ -12,6 +14,7 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "drape/scene/scene.hpp"
+#include "drape/sim/tracks.hpp"
 #include "motion/import/motion_source.hpp"
 #include "motion/reader.hpp"
 #include "motion/writer.hpp"
@@ -362,11 +365,68 @@ std::uint64_t write(const fs::path& file, const LoadedScene& scene, MotionSource
   }
 }
 
+/// Checks that cloths that are imported together have the same times, where their files have any.
+void require_same_times(const std::vector<std::unique_ptr<MotionSource>>& cloths) {
+  const std::vector<double> times = cloths.front()->times();
+  constexpr double rounding = 0.02;  // of a step, as in make_time_grid()
+  for (std::size_t k = 1; k < cloths.size(); ++k) {
+    const std::vector<double> others = cloths[k]->times();
+    if (times.size() < 2 || others.size() != times.size()) continue;  // unknown, or reported by joined()
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double step = i == 0 ? times[1] - times[0] : times[i] - times[i - 1];
+      if (std::abs(others[i] - times[i]) <= rounding * std::abs(step)) continue;
+      fail_import(cloths[k]->name(),
+                  fmt::format("its frame {} is at {} s, and that of {} at {} s: cloths that are imported together need "
+                              "the same times; --fps takes their frames as evenly spaced",
+                              i, others[i], cloths.front()->name(), times[i]));
+    }
+  }
+}
+
+/// A body at the times of a cloth: linear between its own samples, at rest before and after them.
+class SampledBody final : public MotionSource {
+ public:
+  SampledBody(std::shared_ptr<MotionSource> body, std::vector<double> times)
+      : body_(std::move(body)), own_times_(body_->times()), times_(std::move(times)) {
+    before_ = after_ = body_->moment(0).x;
+  }
+
+  [[nodiscard]] const std::string& name() const override { return body_->name(); }
+  [[nodiscard]] const Mesh& mesh() const override { return body_->mesh(); }
+  [[nodiscard]] std::size_t count() const override { return times_.size(); }
+  [[nodiscard]] ImportedMoment moment(std::size_t i) override {
+    const Between at = between(own_times_, times_[i]);
+    for (; read_ < at.after; after_ = body_->moment(++read_).x) before_ = after_;
+    if (at.before == at.after) return {.x = after_};
+    return {.x = before_ + at.share * (after_ - before_)};
+  }
+
+ private:
+  std::shared_ptr<MotionSource> body_;
+  std::vector<double> own_times_, times_;
+  std::size_t read_ = 0;  // number of after_
+  Vertices before_, after_;
+};
+
+/// Returns a body with a frame for each time of the cloth, if both have times that differ.
+/// @param times of the cloth [s]; empty: unknown, or its frames are evenly spaced
+std::shared_ptr<MotionSource> at_times(std::shared_ptr<MotionSource> body, const std::vector<double>& times) {
+  if (times.size() < 2 || body->count() < 2) return body;
+  const std::vector<double> own = body->times();
+  const bool increasing = std::ranges::adjacent_find(own, std::greater_equal<>()) == own.end();
+  if (own.size() < 2 || own == times || !increasing) return body;
+  return std::make_shared<SampledBody>(std::move(body), times);
+}
+
+bool says_its_unit(const std::string& file) {
+  const std::string ending = lower_ending(file);
+  return ending == ".usda" || ending == ".usd";
+}
+
 /// Opens a motion or a body, converted to metres with z up.
 std::unique_ptr<MotionSource> open_upright(const std::string& file, const std::string& mesh, const std::string& prim,
                                            const ImportAxes& axes) {
-  const std::string ending = lower_ending(file);
-  if (axes.y_up && (ending == ".usda" || ending == ".usd")) {
+  if (axes.y_up && says_its_unit(file)) {
     fail_import(file, "a USD file says itself which axis is up: omit --up");
   }
   return with_axes(open_motion_source(file, mesh, prim), axes);
@@ -392,15 +452,21 @@ ImportedMotion import_motion(const ImportOptions& options, const fs::path& file,
   for (const std::string& cloth : options.cloths) {
     parts.push_back(open_upright(cloth, options.mesh, options.prim, options.axes));
   }
+  if (!options.fps) require_same_times(parts);
   const std::unique_ptr<MotionSource> cloth = joined(std::move(parts));
   if (cloth->mesh().triangles.empty()) fail_import(cloth->name(), "there is no face in it");
   const TimeGrid grid = make_time_grid(cloth->name(), cloth->count(), cloth->times(), options.fps, cloth->fps());
   const TemporaryFolder folder("drape-import");
   ImportedScene text(folder.path(), grid);
   text.add_cloth(*cloth);
-  text.add(cloth->colliders());
+  const std::vector<double> times = options.fps ? std::vector<double>() : cloth->times();
+  ImportedColliders colliders = cloth->colliders();
+  for (auto& body : colliders.bodies) body = at_times(std::move(body), times);
+  text.add(colliders);
   for (const std::string& body : options.bodies) {
-    text.add_body(*open_upright(body, {}, {}, options.axes));
+    ImportAxes axes = options.axes;
+    if (says_its_unit(body)) axes.scale = 1;
+    text.add_body(*at_times(open_upright(body, {}, {}, axes), times));
   }
   LoadedScene scene = load_scene_of(text, *cloth, folder.path());
   scene.name = file.stem().string();

@@ -16,8 +16,8 @@ namespace drape {
 /// read on request of its moment.
 std::unique_ptr<MotionSource> open_mesh_sequence(const std::filesystem::path& file);
 
-/// Opens a ParaView collection (.pvd) of .vtp files. Part 0 is the cloth. Other parts are bodies, unless the cloth's
-/// files contain the spheres and grounds as drape writes them.
+/// Opens a ParaView collection (.pvd) of .vtp files. Part 0 is the cloth. Other parts are bodies, without the
+/// surfaces of spheres and grounds in the cloth's files, as drape writes them.
 std::unique_ptr<MotionSource> open_pvd(const std::filesystem::path& file);
 
 /// Opens an archive of numpy arrays (.npz): positions, f×n×3, and faces; optionally times, velocities, energies, rest,

@@ -78,7 +78,10 @@ class NpzMotion final : public MotionSource {
 
   [[nodiscard]] ImportedMoment moment(std::size_t i) override {
     ImportedMoment moment{.x = i == 0 ? mesh_.positions : next()};
-    if (velocities_) moment.v = vertices_of(velocities_->name(), velocities_->row());
+    if (velocities_) {
+      moment.v = vertices_of(velocities_->name(), velocities_->row());
+      require_finite(velocities_->name(), moment.v);
+    }
     if (energies_) {
       const std::vector<double> all = energies_->row();  // total, kinetic, gravity, elastic
       moment.energies = Energies{.kinetic = all[1], .gravity = all[2], .elastic = all[3]};
@@ -289,8 +292,10 @@ ZipReader::ZipReader(std::filesystem::path file) : file_(std::move(file)) {
   if (bytes > most_directory_bytes || begin > size || bytes > size - begin) fail();
   const std::string directory = bytes_at(stream, begin, bytes);
   for (std::size_t at = 0; members_.size() < count;) {
-    if (directory.compare(at, 4, "PK\x01\x02") != 0) fail();
+    constexpr std::size_t header_size = 46;
+    if (directory.compare(at, 4, "PK\x01\x02") != 0 || directory.size() - at < header_size) fail();
     const std::size_t name_size = whole(directory, at + 28, 2), extra_size = whole(directory, at + 30, 2);
+    if (directory.size() - at - header_size < name_size) fail();
     Member member{.name = directory.substr(at + 46, name_size),
                   .offset = whole(directory, at + 42, 4),
                   .packed = whole(directory, at + 20, 4),

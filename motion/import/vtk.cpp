@@ -3,7 +3,9 @@
 #include <zlib.h>
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "core/bytes.hpp"
@@ -14,6 +16,15 @@
 
 namespace drape {
 namespace {
+
+/// Checks the types of a grid's cells.
+void require_polygons(const std::string& name, const std::vector<double>& types) {
+  constexpr double triangle = 5, polygon = 7, quad = 9;
+  for (const double type : types) {
+    if (type == triangle || type == polygon || type == quad) continue;
+    fail_import(name, fmt::format("a cell is of type {}; expected polygons alone, of type 5, 7 or 9", type));
+  }
+}
 
 class LegacyReader {
  public:
@@ -37,6 +48,7 @@ class LegacyReader {
     if (sizes_.empty()) fail(kind_ == "POLYDATA" ? "it has no POLYGONS" : "it has no CELLS");
     MeshFrame frame;
     frame.mesh.positions = vertices_of(name_, points_);
+    frame.time = time_;
     add_faces(name_, sizes_, corners_, frame.mesh);
     return frame;
   }
@@ -92,7 +104,10 @@ class LegacyReader {
     static const std::map<std::string, NumberType> types{
         {"FLOAT", {Kind::real, 4, true}},           {"DOUBLE", {Kind::real, 8, true}},
         {"INT", {Kind::integer, 4, true}},          {"VTKTYPEINT64", {Kind::integer, 8, true}},
-        {"VTKTYPEINT32", {Kind::integer, 4, true}}, {"LONG", {Kind::integer, 8, true}}};
+        {"VTKTYPEINT32", {Kind::integer, 4, true}}, {"LONG", {Kind::integer, 8, true}},
+        {"CHAR", {Kind::integer, 1, true}},         {"UNSIGNED_CHAR", {Kind::natural, 1, true}},
+        {"SHORT", {Kind::integer, 2, true}},        {"UNSIGNED_SHORT", {Kind::natural, 2, true}},
+        {"UNSIGNED_INT", {Kind::natural, 4, true}}, {"UNSIGNED_LONG", {Kind::natural, 8, true}}};
     const auto found = types.find(upper(text));
     if (found == types.end()) fail(fmt::format("unknown type {}", text));
     return found->second;
@@ -120,12 +135,9 @@ class LegacyReader {
     } else if (name == "POLYGONS" || name == "CELLS") {
       read_cells();
     } else if (name == "CELL_TYPES") {
-      constexpr double triangle = 5, polygon = 7, quad = 9;
-      for (const double kind : numbers(count(), ints)) {
-        if (kind != triangle && kind != polygon && kind != quad) {
-          fail(fmt::format("a cell is of type {}; expected polygons alone, of type 5, 7 or 9", kind));
-        }
-      }
+      require_polygons(name_, numbers(count(), ints));
+    } else if (name == "FIELD") {
+      read_field();
     } else if (name == "METADATA") {
       while (!line().empty() && !rest_.empty()) {
       }
@@ -135,6 +147,22 @@ class LegacyReader {
       return false;  // point or cell data
     }
     return true;
+  }
+
+  /// Reads the arrays of a field, of which only the time counts.
+  void read_field() {
+    word();  // name of the field
+    for (std::size_t arrays = count(); arrays > 0; --arrays) {
+      std::string_view name = word();
+      while (upper(name) == "METADATA") {
+        while (!line().empty() && !rest_.empty()) {
+        }
+        name = word();
+      }
+      const std::size_t components = count(), tuples = count();
+      const std::vector<double> values = numbers(components * tuples, type(word()));
+      if (name == "TimeValue" && values.size() == 1) time_ = values.front();
+    }
   }
 
   void read_cells() {
@@ -172,6 +200,7 @@ class LegacyReader {
   bool binary_ = false;
   std::vector<double> points_, corners_;
   std::vector<std::size_t> sizes_;
+  std::optional<double> time_;
 };
 
 }  // namespace
@@ -367,6 +396,7 @@ void read_polygons(const VtkXml& file, const std::string& name, const Element* c
     sizes.push_back(static_cast<std::size_t>(end - before));
     before = end;
   }
+  if (const Element* const types = named(cells, "types")) require_polygons(name, file.numbers(*types));
   add_faces(name, sizes, file.numbers(*corners), mesh);
 }
 
@@ -432,14 +462,73 @@ namespace {
 
 constexpr std::size_t most_bytes_of_list = 200'000'000;
 
+/// Returns the triangles that belong to no sphere and no ground: those of pieces with a vertex off all of them. drape
+/// writes spheres, grounds and bodies as one mesh.
+std::vector<Triangle> triangles_of_bodies(const MeshFrame& shapes, const Mesh& mesh) {
+  const auto count = static_cast<std::size_t>(mesh.positions.rows());
+  std::vector<std::size_t> piece(count);
+  std::iota(piece.begin(), piece.end(), std::size_t{0});
+  const auto root = [&](std::size_t v) {
+    while (piece[v] != v) v = piece[v] = piece[piece[v]];
+    return v;
+  };
+  for (const Triangle& t : mesh.triangles) {
+    for (const int v : t) piece[root(static_cast<std::size_t>(v))] = root(static_cast<std::size_t>(t[0]));
+  }
+  constexpr double rounding = 1e-6;
+  const double size = mesh.positions.cwiseAbs().maxCoeff();
+  const auto on_all = [&](const auto& gap_to, const std::vector<Eigen::Vector4d>& all, std::vector<char>& bodies) {
+    for (const Eigen::Vector4d& one : all) {
+      std::vector<char> off(count, 0);  // by root
+      for (std::size_t v = 0; v < count; ++v) {
+        const double gap = gap_to(one, Eigen::Vector3d(mesh.positions.row(static_cast<Eigen::Index>(v)).transpose()));
+        if (!(std::abs(gap) <= rounding * size)) off[root(v)] = 1;
+      }
+      for (std::size_t v = 0; v < count; ++v) bodies[v] = static_cast<char>(bodies[v] != 0 && off[root(v)] != 0);
+    }
+  };
+  std::vector<char> bodies(count, 1);
+  on_all([](const Eigen::Vector4d& s, const Eigen::Vector3d& p) { return (p - s.head<3>()).norm() - s[3]; },
+         shapes.spheres, bodies);
+  on_all([](const Eigen::Vector4d& g, const Eigen::Vector3d& p) { return g.head<3>().dot(p) - g[3]; }, shapes.grounds,
+         bodies);
+  std::vector<Triangle> kept;
+  std::ranges::copy_if(mesh.triangles, std::back_inserter(kept),
+                       [&](const Triangle& t) { return bodies[static_cast<std::size_t>(t[0])] != 0; });
+  return kept;
+}
+
 /// The files of one part of a collection.
 class PvdPart final : public MotionSource {
  public:
   PvdPart(std::string name, std::vector<double> times, std::vector<fs::path> files,
-          std::vector<std::shared_ptr<MotionSource>> bodies)
+          std::vector<std::shared_ptr<PvdPart>> bodies)
       : name_(std::move(name)), times_(std::move(times)), files_(std::move(files)), bodies_(std::move(bodies)) {
     first_ = read_mesh_frame(files_.front());
     require_finite(files_.front().string(), first_.mesh.positions);
+    mesh_ = first_.mesh;
+  }
+
+  /// Removes the triangles of spheres and grounds; returns false if none remain.
+  bool keep_bodies(const MeshFrame& shapes) {
+    if (shapes.spheres.empty() && shapes.grounds.empty()) return true;
+    mesh_.triangles = triangles_of_bodies(shapes, first_.mesh);
+    std::vector<int> numbers(static_cast<std::size_t>(first_.mesh.positions.rows()), -1);
+    for (const Triangle& triangle : mesh_.triangles) {
+      for (const int v : triangle) numbers[static_cast<std::size_t>(v)] = 0;
+    }
+    kept_.clear();
+    for (std::size_t v = 0; v < numbers.size(); ++v) {
+      if (numbers[v] < 0) continue;
+      numbers[v] = static_cast<int>(kept_.size());
+      kept_.push_back(static_cast<int>(v));
+    }
+    for (Triangle& triangle : mesh_.triangles) {
+      for (int& v : triangle) v = numbers[static_cast<std::size_t>(v)];
+    }
+    mesh_.positions = first_.mesh.positions(kept_, Eigen::all);
+    mesh_.uvs.clear();
+    return !kept_.empty();
   }
 
   [[nodiscard]] const std::string& name() const override { return name_; }
@@ -448,22 +537,23 @@ class PvdPart final : public MotionSource {
     all.insert(all.end(), files_.begin(), files_.end());
     return all;
   }
-  [[nodiscard]] const Mesh& mesh() const override { return first_.mesh; }
+  [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
   [[nodiscard]] std::size_t count() const override { return files_.size(); }
   [[nodiscard]] std::vector<double> times() override { return times_; }
 
   [[nodiscard]] ImportedMoment moment(std::size_t i) override {
     MeshFrame frame = i == 0 ? first_ : read_mesh_frame(files_[i]);
     require_same_mesh(files_[i].string(), first_.mesh, frame.mesh);
+    if (!kept_.empty()) return {.x = frame.mesh.positions(kept_, Eigen::all)};
     return {.x = std::move(frame.mesh.positions), .v = std::move(frame.velocities), .energies = frame.energies};
   }
 
   [[nodiscard]] ImportedColliders colliders() override {
     ImportedColliders found;
-    if (first_.spheres.empty() && first_.grounds.empty()) {
-      found.bodies = bodies_;
-      return found;
+    for (const auto& body : bodies_) {
+      if (body->keep_bodies(first_)) found.bodies.push_back(body);
     }
+    if (first_.spheres.empty() && first_.grounds.empty()) return found;
     for (const fs::path& file : files_) {
       const MeshFrame frame = &file == &files_.front() ? first_ : read_mesh_frame(file);
       found.spheres.by_moment.push_back(frame.spheres);
@@ -476,8 +566,10 @@ class PvdPart final : public MotionSource {
   std::string name_;
   std::vector<double> times_;
   std::vector<fs::path> files_;
-  std::vector<std::shared_ptr<MotionSource>> bodies_;
+  std::vector<std::shared_ptr<PvdPart>> bodies_;
   MeshFrame first_;
+  Mesh mesh_;
+  std::vector<int> kept_;  // vertices of bodies; empty: all
 };
 
 }  // namespace
@@ -498,12 +590,11 @@ std::unique_ptr<MotionSource> open_pvd(const fs::path& file) {
     part.times.push_back(entry.time);
     part.files.push_back(file.parent_path() / entry.file);
   }
-  std::vector<std::shared_ptr<MotionSource>> bodies;
+  std::vector<std::shared_ptr<PvdPart>> bodies;
   const int cloth = parts.begin()->first;
   for (const auto& [number, part] : parts) {
     if (number == cloth) continue;
-    bodies.push_back(
-        std::make_shared<PvdPart>(name, part.times, part.files, std::vector<std::shared_ptr<MotionSource>>{}));
+    bodies.push_back(std::make_shared<PvdPart>(name, part.times, part.files, std::vector<std::shared_ptr<PvdPart>>{}));
   }
   Part& own = parts.begin()->second;
   return std::make_unique<PvdPart>(name, std::move(own.times), std::move(own.files), std::move(bodies));

@@ -154,6 +154,10 @@ TEST_F(RoundTrip, OfUsdKeepsSpheresGroundsAndBodies) {
   expect_things_back<UsdWriter>(path("a.usda"), path("a.drape"), 1e-7, 1e-15);
 }
 
+TEST_F(RoundTrip, OfParaviewsFilesKeepsSpheresGroundsAndBodies) {
+  expect_things_back<PvdWriter>(path("a.pvd"), path("a.drape"), 1e-15, 1e-15);
+}
+
 TEST_F(RoundTrip, TurnsAndScalesAndTakesVelocitiesFromDifferences) {
   const RandomMotion motion(5);
   motion.write_frames(path("p/"), ".ply", ply_writer(motion.info()));

@@ -1,11 +1,13 @@
 // Files of other programs, and invalid files: one message each.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "motion/import/import_motion.hpp"
 #include "motion/reader.hpp"
 #include "output/mesh_writers.hpp"
 #include "output/npz_writer.hpp"
+#include "sim/system.hpp"
 #include "tests/import/random_motion.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/usage_error.hpp"
@@ -201,12 +203,88 @@ TEST_F(Strangers, AreToldWhatIsWrongWithNumpysArrays) {
   expect_refused("back.npz", "times");
   put_npz("none.npz", {faces});
   expect_refused("none.npz", "expected the arrays positions and faces, found faces.npy");
+  bad = twice;
+  bad[4] = NAN;
+  put_npz("speeds.npz", {positions, faces, {"velocities", {3, 3}, bad}});
+  expect_refused("speeds.npz", "velocities.npy: vertex 1 has the y coordinate nan");
+  std::string shorter = content(path("good.npz"));  // the directory's last entry is cut after 20 bytes
+  const std::size_t end = shorter.rfind("PK\x05\x06"), last = shorter.rfind("PK\x01\x02");
+  const auto whole = static_cast<unsigned char>(shorter[end + 12]);
+  shorter[end + 12] = static_cast<char>(whole - (end - last) + 20);
+  ASSERT_GT(whole, end - last);
+  put("shorter.npz", shorter);
+  expect_refused("shorter.npz", "found no directory of one: it is cut short");
   std::string many = content(path("good.npz"));  // claims ten million vertices but has three
   const std::string shape = "'shape': (2, 3, 3,), }", larger = "'shape': (2, 9999999, 3,), }";
   ASSERT_NE(many.find(shape), std::string::npos);
   many.replace(many.find(shape), larger.size(), larger);  // replaces spaces behind it
   put("many.npz", many);
   expect_refused("many.npz", "damaged or cut short");
+}
+
+TEST_F(Strangers, MayHaveFieldsBeforeTheirPointsButNoSolidCells) {
+  const std::string head = "# vtk DataFile Version 3.0\ncloth\nASCII\nDATASET POLYDATA\n",
+                    mesh = "POINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n";
+  put("f/0.vtk", head + "FIELD FieldData 2\nTimeValue 1 1 double\n0.5\nparts 2 1 unsigned_char\n1 2\n" + mesh);
+  put("f/1.vtk", head + "FIELD FieldData 1\nTimeValue 1 1 double\n0.7\n" + mesh);
+  EXPECT_NEAR(read("f/{frame}.vtk").step, 0.2, 1e-12);
+  const auto grid = [](const std::string& type) {
+    return "<?xml version=\"1.0\"?><VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">"
+           "<UnstructuredGrid><Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"><Points><DataArray type=\"Float32\" "
+           "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 1 1 0 0 1 1</DataArray></Points><Cells><DataArray "
+           "type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 3</DataArray><DataArray type=\"Int32\" "
+           "Name=\"offsets\" format=\"ascii\">4</DataArray><DataArray type=\"UInt8\" Name=\"types\" "
+           "format=\"ascii\">" +
+           type + "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
+  };
+  put("quad.vtu", grid("9"));
+  EXPECT_EQ(read("quad.vtu").triangles, 2);
+  put("tet.vtu", grid("10"));
+  expect_refused("tet.vtu", "a cell is of type 10; expected polygons alone, of type 5, 7 or 9");
+}
+
+/// A USD triangle at heights that differ from sample to sample, at 10 time codes per second.
+std::string rising_usd(const std::string& name, const std::vector<std::pair<int, double>>& heights,
+                       const std::string& unit = "1") {
+  std::string text = "#usda 1.0\n(\n upAxis = \"Z\"\n metersPerUnit = " + unit +
+                     "\n timeCodesPerSecond = 10\n)\ndef Mesh \"" + name +
+                     "\"\n{\n int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2]\n point3f[] "
+                     "points.timeSamples = {\n";
+  for (const auto& [code, z] : heights) {
+    text += fmt::format("  {0}: [(0, 0, {1}), (1, 0, {1}), (0, 1, {1})],\n", code, z);
+  }
+  return text + " }\n}\n";
+}
+
+// A body of a USD file is where it is at the cloth's times, and has its own unit.
+TEST_F(Strangers, HaveBodiesAtTheTimesOfTheCloth) {
+  put("cloth.usda", rising_usd("Cloth", {{0, 5}, {1, 5}, {2, 5}, {3, 5}}));
+  put("arm.usda", rising_usd("Arm", {{1, 100}, {3, 300}, {9, 900}}, "0.01"));
+  read("cloth.usda", {.bodies = {path("arm.usda")}, .axes = {.scale = 2}});
+  MotionReader reader(path("out.drape"));
+  EXPECT_EQ(reader.state(0).x(2, 2), 10) << "twice the cloth's unit";
+  const MotionScene folder(reader);
+  const System system = make_system(folder.scene().simulation);
+  const std::vector<double> expected{1, 1, 2, 3};
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const std::vector<Collider> found = system.colliders_at(0.1 * static_cast<double>(k));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(std::get<MeshShape>(found[0]).positions(2, 2), expected[k], 1e-6) << k;
+  }
+}
+
+TEST_F(Strangers, NeedTheSameTimesWhereTheyAreJoined) {
+  put("slow.usda", rising_usd("Cloth", {{0, 1}, {1, 2}, {2, 3}}));
+  put("fast.usda", rising_usd("Cloth", {{0, 1}, {2, 2}, {4, 3}}));
+  Progress progress;
+  const auto join = [&](std::optional<double> fps) {
+    const ImportOptions options{.cloths = {path("slow.usda"), path("fast.usda")}, .fps = fps};
+    import_motion(options, path("out.drape"), {}, progress);
+  };
+  const std::string found = usage_error([&] { join({}); });
+  EXPECT_NE(found.find("its frame 1 is at 0.2 s, and that of"), std::string::npos) << found;
+  join(10);
+  EXPECT_EQ(MotionReader(path("out.drape")).states(), 3U);
 }
 
 /// Truncated and damaged files give a message or a motion, and nothing else.
