@@ -329,15 +329,15 @@ void UsdWriter::write_colliders() {
 
 std::vector<OutputFile> UsdWriter::finish(Ending ending) {
   if (count_ == 0) return {};
+  for (const auto& [texture, copy] : copies_) {  // before they are named
+    require_replaceable(copy, texture);
+    write_file_atomically(copy, read_file(texture, most_bytes_of_copy));
+  }
   write_header();
   write_cloth();
   write_materials();
   write_colliders();
   file_.write("}\n");
-  for (const auto& [texture, copy] : copies_) {
-    require_replaceable(copy, texture);
-    write_file_atomically(copy, read_file(texture, most_bytes_of_copy));
-  }
   const std::uintmax_t size = file_.commit(ending);
   return {{file_.name(ending), size}};
 }

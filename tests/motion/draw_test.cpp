@@ -67,12 +67,14 @@ TEST(RecordedFrames, HaveACopyOfTheTextureBesideAUsdFile) {
   const auto write = [&] {
     RunOptions options;
     options.recorded = std::make_shared<MotionReader>(folder.path("m.drape"));
-    options.outputs = {folder.path("x.usda")};
+    options.outputs = {"x.usda"};
     const MotionScene opened(*options.recorded);
     Progress progress;
     run_scene(opened.scene(), options, {}, progress);
     return content(folder.path("x.usda"));
   };
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
   const std::string text = write();
   EXPECT_NE(text.find("inputs:file = @./x.texture.png@"), std::string::npos);
   EXPECT_TRUE(content(folder.path("x.texture.png")) == picture);
@@ -81,6 +83,7 @@ TEST(RecordedFrames, HaveACopyOfTheTextureBesideAUsdFile) {
   EXPECT_NE(usage_error([&] { write(); }).find("x.texture.png exists and is not the motion's texture"),
             std::string::npos);
   EXPECT_EQ(content(folder.path("x.texture.png")), "mine");
+  std::filesystem::current_path(before);
 }
 
 TEST(RecordedFrames, AreThoseOfTheSimulation) {
