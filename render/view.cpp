@@ -75,15 +75,21 @@ DepthRange depth_range(const View& view, const Frame& frame, double thickness) {
   };
   for (Eigen::Index i = 0; i < frame.positions.rows(); ++i) add(frame.positions.row(i).dot(forward) - origin, 0);
   int grounds = 0;
+  double farthest_drawn = -infinity;  // depth at which body.vert draws the bodies, behind their place
   for (const Collider& collider : frame.colliders) {
+    const auto* body = std::get_if<MeshShape>(&collider);
     grounds += std::holds_alternative<GroundShape>(collider) ? 1 : 0;
-    for_each_ball(collider,
-                  [&](const Eigen::Vector3d& center, double radius) { add(center.dot(forward) - origin, radius); });
+    for_each_ball(collider, [&](const Eigen::Vector3d& center, double radius) {
+      const double depth = center.dot(forward) - origin;
+      add(depth, radius);
+      if (body != nullptr) farthest_drawn = std::max(farthest_drawn, depth + body->thickness);
+    });
   }
   if (!(farthest > 0)) return {};  // everything is behind the camera
   // The drawn surface of a cloth extends a little beyond its vertices.
   const double room = thickness + 0.02 * std::max(farthest - nearest, 1e-3 * farthest);
   farthest += room;
+  if (farthest_drawn > farthest) farthest = farthest_drawn + room;
   // A ground is seen in front of everything else and behind it, where its depth need only be that of the range's ends.
   // Two grounds hide each other where they meet.
   if (grounds > 1) return {0.01 * farthest, 10 * farthest};

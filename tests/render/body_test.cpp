@@ -81,6 +81,15 @@ TEST(BodyPicture, HidesTheClothBehindItAndIsHiddenByTheOneOnIt) {
   EXPECT_FALSE(red_beats_blue(0.01, 0.02)) << "a cloth that dips into the layer";
 }
 
+TEST(BodyPicture, IsWholeWhereItsLayerIsThickerThanTheScene) {
+  Mesh cloth = make_grid(2, 2);
+  cloth.positions *= 0.1;
+  MeshShape body = plate(0.5, 0);
+  body.thickness = 0.3;
+  const Image image = draw(cloth, from_above(), flat_look(), {100, 100}, {body});
+  for (const int x : {30, 70}) EXPECT_GT(brightness(image, x, 50), 300) << x;
+}
+
 TEST(BodyPicture, ThrowsAShadowOnTheClothAndTakesOne) {
   Look look = flat_look();
   look.ambient_occlusion = false;
