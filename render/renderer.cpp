@@ -317,11 +317,11 @@ class Renderer::Implementation {
     }
     cloth_.draw(shot, shadow());
     if (!shot.spheres.empty()) {  // after the cloth, which hides much of them
-      if (!spheres_) spheres_.emplace(*device_, look_, shot.spheres.size(), shot.grounds.size());
+      if (!spheres_) spheres_.emplace(*device_, look_, shot.spheres.size(), shot.cuts.size());
       spheres_->draw(shot, shadow());
     }
     if (!shot.bodies.empty()) {
-      if (!bodies_) bodies_.emplace(*device_, look_, shot.spheres.size(), shot.grounds.size());
+      if (!bodies_) bodies_.emplace(*device_, look_, shot.spheres.size(), shot.cuts.size());
       bodies_->draw(shot, shadow());
     }
     canvas_.finish();

@@ -59,7 +59,10 @@ Shot::Shot(const Frame& shown, const View& view, double aspect, const Look& look
       const Eigen::Vector4d packed{sphere->center.x(), sphere->center.y(), sphere->center.z(), sphere->radius};
       spheres.push_back(packed.cast<float>());
     } else if (const auto* ground = std::get_if<GroundShape>(&collider)) {
-      if (ground->normal.dot(view.position) > ground->height) grounds.push_back(*ground);
+      if (ground->normal.dot(view.position) > ground->height) {
+        grounds.push_back(*ground);
+        cuts.emplace_back() << ground->normal.cast<float>(), static_cast<float>(ground->height);
+      }
     } else if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
       bodies.push_back(mesh);
     }
@@ -79,12 +82,7 @@ void Shot::set_uniforms(const Program& program) const {
   program.set("fill_direction", fill_direction);
   program.set("exposure", exposure);
   program.set("spheres", spheres);
-  std::vector<Eigen::Vector4f> planes;
-  for (const GroundShape& ground : grounds) {
-    planes.emplace_back();
-    planes.back() << ground.normal.cast<float>(), static_cast<float>(ground.height);
-  }
-  program.set("grounds", planes);
+  program.set("grounds", cuts);
 }
 
 std::vector<std::string> light_defines(const Look& look, std::size_t sphere_count, bool shadows) {

@@ -24,6 +24,7 @@ struct Shot {
   Eigen::Vector3f fill_direction;        ///< unit vector towards the fill light
   std::vector<Eigen::Vector4f> spheres;  ///< center and radius of each [m]
   std::vector<GroundShape> grounds;      ///< those seen from above
+  std::vector<Eigen::Vector4f> cuts;     ///< normal and height of the grounds that cut spheres and bodies
   std::vector<const MeshShape*> bodies;  ///< of the frame
   float exposure;                        ///< factor of all light
   bool backdrop = false;                 ///< true if the only ground is a backdrop's floor

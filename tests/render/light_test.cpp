@@ -165,6 +165,31 @@ TEST(Light, CastsAShadowOnABackdrop) {
   EXPECT_EQ(draw(sheet, view, look, {200, 200}, ground), draw(sheet, view, plain, {200, 200}, ground));
 }
 
+TEST(Light, OfABackdropCutsNothing) {
+  const View view{{0, -5, 2.5}, {0, 0, -0.6}, {0, 0, 1}, 34};
+  Look look;
+  look.shadows = false;
+  look.sphere_color = look.body_color = {1, 0, 0};
+  Mesh sheet = make_grid(1, 1);
+  sheet.positions.col(2).array() -= 6;
+  const MeshShape body{.triangles = std::make_shared<std::vector<Triangle>>(sheet.triangles),
+                       .positions = sheet.positions.rowwise() + Eigen::RowVector3d(1.5, 9, 0)};
+  // Both are in view behind the target, below the level of the backdrop's floor there.
+  const std::vector<Collider> behind{SphereShape{{-1.5, 9, -6}, 1}, body};
+  const auto red_pixels = [&] {
+    const Image image = draw(nothing(), view, look, {200, 200}, behind);
+    int count = 0;
+    for (int y = 0; y < 200; ++y) {
+      for (int x = 0; x < 200; ++x) count += image.at(x, y)[0] > image.at(x, y)[1] + 60 ? 1 : 0;
+    }
+    return count;
+  };
+  const int all = red_pixels();
+  EXPECT_GT(all, 500);
+  look.backdrop = true;
+  EXPECT_NEAR(red_pixels(), all, 0.02 * all);
+}
+
 TEST(Light, OfABackgroundHasNoBands) {
   // Dithered: over 4×4 pixels the mean matches the gradient to a quarter of a step; whole bytes would miss it by half a
   // step.
