@@ -250,9 +250,6 @@ namespace {
 
 /// Radius to which the ground is visible, in distances from the camera to its focus on the ground.
 constexpr double reach = 2.6;
-/// Depth below the drawn surface at which the ground starts to hide the cloth, in contact layers: a fast cloth
-/// penetrates it for a moment.
-constexpr double hidden_below = 3;
 /// Height of the cloth from which its shadow is soft, in heights of the picture.
 constexpr double softening = 0.1;
 
@@ -353,7 +350,7 @@ void DrawGround::draw(const Program& program, const Shot& shot, const GroundShap
   set(program, "shadow_v", shadow_.v());
   set(program, "ground", {ground.normal[0], ground.normal[1], ground.normal[2], ground.height});
   set(program, "focus", focus_of(shot, ground));
-  program.set("sunk", static_cast<float>(hidden_below * ground.thickness));
+  program.set("sunk", static_cast<float>(GroundShadow::hidden_below * ground.thickness));
   gl_.Scissor(box.corner.x(), box.corner.y(), box.size.x(), box.size.y());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }

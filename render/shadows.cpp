@@ -357,13 +357,16 @@ void GroundShadow::project(const DepthMap& map, const GroundShape& ground, doubl
         static_cast<std::size_t>(row / merged_texels + soft_border) * static_cast<std::size_t>(columns_);
     for (int column = 0; column < inner_columns * merged_texels; ++column) {
       if (nearest[column] < farthest[column]) continue;  // empty texel
-      const double height = double{farthest[column]} - (a * (column + 0.5) + b * (row + 0.5) + c);
+      const double level = a * (column + 0.5) + b * (row + 0.5) + c;
+      const double top = (double{nearest[column]} - level) * rise + hidden_below * ground.thickness;
+      const auto casting = static_cast<float>(std::clamp(1 + top / texel, 0.0, 1.0));
+      const double height = double{farthest[column]} - level;
       const auto relative = static_cast<float>(std::max(height * rise, 0.0) / softening);
       const float sharpness = 1 / (1 + relative + relative * relative);
       const std::size_t pixel = place + static_cast<std::size_t>(column / merged_texels + soft_border);
       constexpr float part = 1.0F / (merged_texels * merged_texels);
-      sharp_[pixel] += part * sharpness;
-      soft_[pixel] += part * (1 - sharpness);
+      sharp_[pixel] += part * casting * sharpness;
+      soft_[pixel] += part * casting * (1 - sharpness);
     }
   }
   u_ = map.u() / merged_texels;

@@ -140,6 +140,10 @@ class ClothShadow {
 /// frame instead of in every drawn pixel.
 class GroundShadow {
  public:
+  /// Depth below the drawn surface at which the ground starts to hide the cloth, in contact layers: a fast cloth
+  /// penetrates it for a moment. Cloth and bodies cast shadows down to one texel below this depth.
+  static constexpr double hidden_below = 3;
+
   /// Casts the shadow.
   /// @param map       depth map of the cloth, seen from the light
   /// @param to_light  unit vector; a light below the ground casts no shadow on it

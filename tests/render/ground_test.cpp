@@ -86,6 +86,15 @@ TEST(GroundShadow, ItsEdgeIsSharperWhereTheClothIsNear) {
   EXPECT_GT(softness(0.0), 1.5 * softness(1.5));
 }
 
+TEST(GroundShadow, IsOnlyOfWhatTheGroundDoesNotHide) {
+  const Vector3d aside = Vector3d(1, 0, 1).normalized();
+  Mesh square = make_grid(4, 4);
+  square.positions.col(2).setConstant(level.height - 2 * level.thickness);  // penetrates, but is drawn
+  EXPECT_NEAR(area(cast(square, level, aside), level, aside), 4, 0.05);
+  square.positions.col(2).setConstant(level.height - 4 * level.thickness);
+  EXPECT_EQ(area(cast(square, level, aside), level, aside), 0);
+}
+
 TEST(GroundShadow, SurvivesAClothWithoutASize) {
   Mesh point = make_grid(1, 1);
   point.positions.setZero();
