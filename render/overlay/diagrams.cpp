@@ -42,13 +42,17 @@ std::vector<Tick> ticks(double from, double to, int about) {
 }
 
 std::vector<Tick> thinned(const std::vector<Tick>& marks, const LabelColumns& columns, int gap) {
+  if (marks.empty()) return {};
+  const auto zero = static_cast<std::size_t>(std::ranges::find(marks, 0.0, &Tick::value) - marks.begin());
+  const std::size_t kept_mark = zero < marks.size() ? zero : 0;
   for (double every = 1; every < static_cast<double>(marks.size()); every = round_up(1.5 * every)) {
     std::vector<Tick> kept;
-    for (std::size_t i = 0; i < marks.size(); i += static_cast<std::size_t>(every)) kept.push_back(marks[i]);
+    const auto stride = static_cast<std::size_t>(every);
+    for (std::size_t i = kept_mark % stride; i < marks.size(); i += stride) kept.push_back(marks[i]);
     const auto touch = [&](const Tick& a, const Tick& b) { return columns(b).first < columns(a).second + gap; };
     if (std::ranges::adjacent_find(kept, touch) == kept.end()) return kept;
   }
-  return {marks.begin(), marks.begin() + std::min<std::ptrdiff_t>(1, std::ssize(marks))};
+  return {marks[kept_mark]};
 }
 
 int color_bar_height(int size) { return 2 * Pen::line_height(size) + 2 * size; }
@@ -95,8 +99,16 @@ CurveBand::CurveBand(int width, int size, std::string unit, std::vector<double> 
   if (highest_ == lowest_) highest_ = lowest_ + 1;
 }
 
+std::vector<Tick> CurveBand::levels(int rows) const {
+  const LabelColumns label_rows = [&](const Tick& mark) {  // upwards
+    const int base = static_cast<int>(std::lround((mark.value - lowest_) / (highest_ - lowest_) * rows));
+    return std::pair{base, base + size_};
+  };
+  return thinned(ticks(lowest_, highest_, 3), label_rows, -size_ / 8);  // digits are lower than the font's size
+}
+
 void CurveBand::draw_axes(Pen& pen, Image& band, const PictureBox& area) const {
-  for (const Tick& mark : ticks(lowest_, highest_, 3)) {
+  for (const Tick& mark : levels(area.height)) {
     const double y = area.bottom() - (mark.value - lowest_) / (highest_ - lowest_) * area.height;
     const int row = static_cast<int>(std::lround(y));
     Pen::fill(band, {area.left, row, area.width, 1}, mark.value == 0 ? band_ink : rule);
@@ -134,10 +146,11 @@ void CurveBand::draw_legend(Pen& pen, Image& band, int left) const {
 Image CurveBand::draw(Pen& pen, double time) const {
   Image band(width_, height(size_));
   Pen::fill(band, {0, 0, band.width, band.height}, band_paper);
+  const int top = 2 * size_ + size_ / 4, rows = band.height - top - 2 * size_;
   int labels = 0;  // greatest width of the vertical axis' labels
-  for (const Tick& mark : ticks(lowest_, highest_, 3)) labels = std::max(labels, pen.width(mark.label, size_));
-  const int left = labels + size_, top = 2 * size_ + size_ / 4;
-  const PictureBox area{left, top, std::max(1, width_ - left - size_), band.height - top - 2 * size_};
+  for (const Tick& mark : levels(rows)) labels = std::max(labels, pen.width(mark.label, size_));
+  const int left = labels + size_;
+  const PictureBox area{left, top, std::max(1, width_ - left - size_), rows};
   draw_axes(pen, band, area);
   draw_legend(pen, band, left);
   const double end = times_.back() - times_.front();

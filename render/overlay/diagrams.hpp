@@ -26,7 +26,9 @@ std::vector<Tick> ticks(double from, double to, int about);
 /// Returns the columns of a mark's label, from the first to the one after the last [pixels].
 using LabelColumns = std::function<std::pair<int, int>(const Tick& mark)>;
 
-/// Keeps the first mark and every second, fifth, tenth … after it: as many as keep their labels `gap` [pixels] apart.
+/// Keeps the mark of value 0, or else the first, and every second, fifth, tenth … from it: as many as keep their labels
+/// `gap` [pixels] apart.
+/// @param marks in the order of their columns
 std::vector<Tick> thinned(const std::vector<Tick>& marks, const LabelColumns& columns, int gap);
 
 /// Colours of the bands below pictures: black on white, as in a figure.
@@ -62,6 +64,7 @@ class CurveBand {
   [[nodiscard]] Image draw(Pen& pen, double time) const;
 
  private:
+  [[nodiscard]] std::vector<Tick> levels(int rows) const;  // labelled marks of the vertical axis
   void draw_axes(Pen& pen, Image& band, const PictureBox& area) const;
   void draw_legend(Pen& pen, Image& band, int left) const;
 

@@ -53,6 +53,43 @@ TEST(Ticks, AreThinnedUntilTheirLabelsStandApart) {
   EXPECT_EQ(kept(1000), "0 ");
 }
 
+TEST(Ticks, KeepZeroWhenTheyAreThinned) {
+  std::string labels;
+  const auto rows = [](const Tick& mark) {
+    const int row = static_cast<int>(std::lround(10 * mark.value));
+    return std::pair{row, row + 15};
+  };
+  for (const Tick& mark : thinned(ticks(-3, 4, 7), rows, 0)) labels += mark.label + " ";
+  EXPECT_EQ(labels, "-2 0 2 4 ");
+}
+
+/// Returns the heights of the labels of values of a diagram without a legend [pixels].
+std::vector<int> label_heights(const Image& band, int size) {
+  std::vector<int> heights;
+  bool inside = false;
+  for (int y = 0; y < band.height - 2 * size + size / 2; ++y) {
+    bool letter = false;
+    for (int x = 0; x < size / 2 + size; ++x) letter = letter || *band.at(x, y) < 160;
+    if (letter && !inside) heights.push_back(0);
+    if (letter) ++heights.back();
+    inside = letter;
+  }
+  return heights;
+}
+
+TEST(CurveBand, LabelsOfValuesStandApart) {
+  Pen pen;
+  const int size = 14;
+  for (const double lowest : {0.0, -2.0, -4.0, -6.0, -8.0}) {
+    for (const double highest : {2.0, 4.0, 6.0, 7.0}) {
+      const CurveBand band(400, size, "J", {0, 1}, {{"", {1, 1, 1}, {lowest, highest}}});
+      const std::vector<int> heights = label_heights(band.draw(pen, 1), size);
+      EXPECT_GE(heights.size(), 2U) << lowest << " to " << highest;
+      for (const int height : heights) EXPECT_LE(height, size) << lowest << " to " << highest;
+    }
+  }
+}
+
 /// Returns the widths of blank columns between the first and the last letter of the labels at the foot of a band.
 std::vector<int> gaps_at_foot(const Image& band, int rows) {
   std::vector<int> gaps;
