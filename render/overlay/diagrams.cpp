@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
+#include "drape/render/overlay/caption.hpp"
 #include "render/overlay/color_scale.hpp"
 
 namespace drape {
@@ -55,13 +57,25 @@ std::vector<Tick> thinned(const std::vector<Tick>& marks, const LabelColumns& co
   return {marks[kept_mark]};
 }
 
+namespace {
+
+/// Returns the largest font size up to `size` at which a line fits into `room`, or else the least font size [pixels].
+/// @param width width of the line at a font size
+int fitting_size(const std::function<int(int)>& width, int size, int room) {
+  while (size > least_text_size && width(size) > room) --size;
+  return size;
+}
+
+}  // namespace
+
 int color_bar_height(int size) { return 2 * Pen::line_height(size) + 2 * size; }
 
 Image color_bar(Pen& pen, int width, int size, const std::string& title, const std::vector<Tick>& marks) {
   Image band(width, color_bar_height(size));
   Pen::fill(band, {0, 0, band.width, band.height}, band_paper);
   const int margin = std::min(2 * size, width / 6), base = size + size / 4;
-  pen.write(band, margin, base, title, size, band_ink);
+  const int title_size = fitting_size([&](int s) { return pen.width(title, s); }, size, width - margin);
+  pen.write(band, margin, base, title, title_size, band_ink);
   const PictureBox bar{margin, base + size / 2, width - 2 * margin, size};
   for (int x = 0; x < bar.width; ++x) {
     Pen::fill(band, {bar.left + x, bar.top, 1, bar.height},
@@ -134,13 +148,22 @@ void CurveBand::draw_axes(Pen& pen, Image& band, const PictureBox& area) const {
 void CurveBand::draw_legend(Pen& pen, Image& band, int left) const {
   const int base = size_ + size_ / 3;
   const std::string unit = "[" + unit_ + "]";
+  const auto entry_width = [&](const Curve& curve, int size) {
+    return size + size / 3 + pen.width(curve.name, size) + size;
+  };
+  const auto width = [&](int size) {
+    int sum = pen.width(unit, size) - size / 2;
+    for (const Curve& curve : curves_) sum += entry_width(curve, size);
+    return sum;
+  };
+  const int size = fitting_size(width, size_, width_ - left);
   int at = left;
   for (const Curve& curve : curves_) {
-    Pen::fill(band, {at, base - size_ / 2, size_, std::max(2, size_ / 5)}, curve.color);
-    pen.write(band, at + size_ + size_ / 3, base, curve.name, size_, band_ink);
-    at += size_ + size_ / 3 + pen.width(curve.name, size_) + size_;
+    Pen::fill(band, {at, base - size / 2, size, std::max(2, size / 5)}, curve.color);
+    pen.write(band, at + size + size / 3, base, curve.name, size, band_ink);
+    at += entry_width(curve, size);
   }
-  pen.write(band, at - size_ / 2, base, unit, size_, band_ink);
+  pen.write(band, at - size / 2, base, unit, size, band_ink);
 }
 
 Image CurveBand::draw(Pen& pen, double time) const {

@@ -116,6 +116,36 @@ TEST(CurveBand, LabelsOfTimesStandApartOnANarrowFilm) {
   }
 }
 
+/// Returns the last column with a letter in the first rows of a band.
+int last_letter(const Image& band, int rows) {
+  int last = -1;
+  for (int y = 0; y < rows; ++y) {
+    for (int x = last + 1; x < band.width; ++x) last = *band.at(x, y) < 160 ? x : last;
+  }
+  return last;
+}
+
+TEST(CurveBand, HasItsLegendInsideTheFilm) {
+  Pen pen;
+  const std::vector<double> values{0, 1};
+  for (const int width : {280, 320, 360, 480}) {
+    std::vector<Curve> curves;
+    for (const char* name : {"total", "kinetic", "gravity", "elastic"}) curves.push_back({name, {0, 0, 0}, values});
+    const Image band = CurveBand(width, 20, "J", {0, 1}, curves).draw(pen, 0);
+    const int last = last_letter(band, 30);
+    EXPECT_LT(last, width - 1);
+    EXPECT_GT(last, 0.85 * width) << "no smaller than needed";
+  }
+}
+
+TEST(ColorBar, HasItsTitleInsideThePicture) {
+  Pen pen;
+  const std::string title = "distance from the first, a scene with quite a long name [mm]";
+  for (const int width : {260, 300, 340, 420}) {
+    EXPECT_LT(last_letter(color_bar(pen, width, 14, title, {}), 14 + 14 / 2), width - 1) << width;
+  }
+}
+
 TEST(ColorBar, HasTheColourThatAMarkStandsFor) {
   Pen pen;
   const int size = 14;
