@@ -221,7 +221,7 @@ bool begins_too_near(const SimulationSettings& settings) {
   const std::vector<double> inverse = inverse_masses(settings.cloth);
   std::vector<ContactConstraint> found;
   for (const auto& source : system.contacts) {
-    source->begin(x, 0, 0);
+    source->begin(x, 0, 1);  // the distance that contacts keep grows with the time until then
     source->find(x, 0, {}, found);
   }
   const bool near = std::ranges::any_of(found, [&](const ContactConstraint& contact) {

@@ -93,7 +93,7 @@ class SurfaceContacts final : public ContactSource {
     contact.normal = to_.normal_on_way(from, to, terms_.distance);
     contact.offset = -to_.center - to_.surface_point(contact.normal);
     const Eigen::Vector3d surface = from_.surface_point(contact.normal);
-    contact.carried = from_.center + surface + contact.offset;
+    contact.carried = -(to_.center - from_.center) - (to_.surface_point(contact.normal) - surface);
     contact.start = from - surface;
     const double before = from_.gap(from);
     contact.distance = distance_at_end(before, terms_.distance, duration_);

@@ -114,15 +114,14 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   const Expected expected = take_expected();
   system_.begin(state);
   const Vertices& force = forces.all(state, system_.time(state.step));
-  Vertices steady;
   if (contact_) {
     contact_->begin(state, system_.time(state.step), system_.time(state.step + 1), instantaneous_);
     contact_->expect(state.contact_forces);
-    steady = state.x + system_.step * state.v;
-    system_.place_pins(system_.time(state.step + 1), steady);
+    steady_ = state.x + system_.step * state.v;
+    system_.place_pins(system_.time(state.step + 1), steady_);
   }
   const auto begun = [&] { books_.begin(state, point_.x); };
-  const auto minimise = [&] { return solve_step(steady, [this] { return !books_.gains(point_, true); }); };
+  const auto minimise = [&] { return solve_step(steady_, [this] { return !books_.gains(point_, true); }); };
   const auto solve = [&] {
     const StepReport report =
         solve_with_fields(state, force, system_.time(state.step + 1), expected.late, begun, minimise);

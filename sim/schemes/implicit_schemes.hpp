@@ -199,6 +199,7 @@ class BackwardEuler final : public MinimisingScheme {
   std::optional<ContactProblem> problem_;  // of contact, created on first use
   bool touched_ = false;                   // true if the last step was solved under contacts
   Iterate limited_;                        // end of a step after the filters
+  Vertices steady_;                        // positions reached at constant velocities; empty without contacts
   Restraint nothing_held_;                 // of a step that the filters did not change
   Vertices limited_v_;                     // mean velocity until there [m/s]
 };

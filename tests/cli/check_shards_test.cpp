@@ -75,8 +75,11 @@ TEST(CheckShards, OfAnEarlierCheckDoNotCount) {
   ASSERT_LE(drape(folder, "check a.toml b.toml --report r --shard 1/2").code, 1);
   ASSERT_TRUE(fs::exists(folder.path("r/shard-1-of-2/check.cbor")));
   // A folder in the place of a diagram ends the check early.
-  folder.write("r/shard-1-of-2/a/motion.svg/in-the-way", "");
-  folder.write("r/shard-1-of-2/b/motion.svg/in-the-way", "");
+  for (const std::string scene : {"a", "b"}) {
+    const std::string diagram = "r/shard-1-of-2/" + scene + "/motion.svg";
+    fs::remove(folder.path(diagram));
+    folder.write(diagram + "/in-the-way", "");
+  }
   EXPECT_EQ(drape(folder, "check a.toml b.toml --report r --shard 1/2").code, 4);
   EXPECT_FALSE(fs::exists(folder.path("r/shard-1-of-2/check.cbor")));
 }

@@ -134,7 +134,7 @@ TEST(Outputs, AreRefusedWhereTheirMotionIsRead) {
                                                         {"m.pc2", "m.pc2"},
                                                         {"m.npz", "m.npz"},
                                                         {"m.usda", "m.usda"},
-                                                        {"m.pvd", "m/0000.vtp"},
+                                                        {"m.pvd", "m/0.vtp"},
                                                         {"s/{frame:04}.obj", "s/0000.obj"},
                                                         {"s/{frame:04}.obj", "s/{frame:04}.obj"},
                                                         {"played.toml", "m.npz"},

@@ -45,7 +45,7 @@ TEST(CheckArchive, HoldsAllThatReportsAreMadeOf) {
 TEST(CheckArchive, RefusesShardsOfAnotherNumberOrProgram) {
   const CheckReport whole = test::sample_check(true);
   std::vector<CheckShard> shards = two_shards(whole);
-  EXPECT_EQ(refusal(shards), "");
+  EXPECT_EQ(refusal(shards), "(no error)");
   shards[1].shard = {2, 3};
   EXPECT_EQ(refusal(shards), "two and one are not of one check");
   shards[1].shard = {3, 2};

@@ -206,11 +206,12 @@ TEST_F(Strangers, AreToldWhatIsWrongWithNumpysArrays) {
   bad = twice;
   bad[4] = NAN;
   put_npz("speeds.npz", {positions, faces, {"velocities", {3, 3}, bad}});
-  expect_refused("speeds.npz", "velocities.npy: vertex 1 has the y coordinate nan");
+  expect_refused("speeds.npz", "velocities: vertex 1 has the y coordinate nan");
   std::string shorter = content(path("good.npz"));  // the directory's last entry is cut after 20 bytes
-  const std::size_t end = shorter.rfind("PK\x05\x06"), last = shorter.rfind("PK\x01\x02");
-  const auto whole = static_cast<unsigned char>(shorter[end + 12]);
-  shorter[end + 12] = static_cast<char>(whole - (end - last) + 20);
+  const std::size_t end = shorter.rfind("PK\x06\x06"), last = shorter.rfind("PK\x01\x02");
+  ASSERT_NE(end, std::string::npos) << "64-bit sizes";
+  const auto whole = static_cast<unsigned char>(shorter[end + 40]);
+  shorter[end + 40] = static_cast<char>(whole - (end - last) + 20);
   ASSERT_GT(whole, end - last);
   put("shorter.npz", shorter);
   expect_refused("shorter.npz", "found no directory of one: it is cut short");
