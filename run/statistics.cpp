@@ -12,14 +12,18 @@
 namespace drape {
 
 void EnergyRise::begin(const Simulation& simulation) {
-  watches_ = simulation.only_loses_energy() && !begins_too_near(simulation.settings());
+  watches_ = simulation.only_loses_energy();
   from_start_ = simulation.has_push();
   every_ = is_explicit(simulation.settings().integrator.method) ? check_interval : 1;
   if (watches_ && simulation.state().step == 0) note(simulation.energies());
 }
 
 void EnergyRise::after_step(const Simulation& simulation, const StepReport&, double) {
-  if (watches_ && simulation.state().step % every_ == 0) note(simulation.energies());
+  if (!watches_ || simulation.state().step % every_ != 0) return;
+  note(simulation.energies());
+  if (asked_ || !rise()->notable()) return;
+  asked_ = true;  // a search for contacts, which may take as long as a step
+  watches_ = !begins_too_near(simulation.settings());
 }
 
 void EnergyRise::replay(const StepRow& row, double, double) {

@@ -45,7 +45,8 @@ class EnergyRise final : public StepObserver {
     /// Returns true if the rise exceeds 1 % of the available energy, more than a step's tolerance explains.
     [[nodiscard]] bool notable() const { return of_available > 0.01; }
   };
-  /// Returns the rise; nothing if the cloth touches nothing or gets energy from outside.
+  /// Returns the rise; nothing if the cloth touches nothing or gets energy from outside, as from a start nearer to
+  /// something than its contact distance.
   [[nodiscard]] std::optional<Rise> rise() const;
 
  private:
@@ -55,8 +56,9 @@ class EnergyRise final : public StepObserver {
   static constexpr std::int64_t check_interval = 8;
 
   bool watches_ = false, from_start_ = false;
-  std::int64_t every_ = 1;                                                             // number of steps
-  std::optional<Energies> first_;                                                      // energies at the start
+  bool asked_ = false;             // true if it is known whether the cloth began too near to something
+  std::int64_t every_ = 1;         // number of steps
+  std::optional<Energies> first_;  // energies at the start
   double least_ = std::numeric_limits<double>::infinity(), available_ = 0, rise_ = 0;  // [J]
 };
 

@@ -123,13 +123,18 @@ TEST(EnergyRise, IsNotAskedForWhereSomethingGivesEnergyOrNothingTouches) {
 
 // A cloth nearer than the contact distance is pushed out, which is no fault of a method.
 TEST(EnergyRise, IsNotAskedForWhereTheClothBeginsTooNear) {
-  for (const double height : {-0.3, -0.001, 0.0}) {
+  for (const double height : {-0.3, -0.001}) {
     SimulationSettings settings = falling_sheet(180, {.height = 0});
-    const double lowest = settings.cloth.positions.col(2).minCoeff();
+    settings.cloth.positions = settings.cloth.rest;  // level: it can fall by no more than this height
+    settings.cloth.velocities.col(0).setConstant(0.1);
     settings.effects = {Gravity{}};
-    settings.effects.add(Ground{.height = lowest + height, .thickness = 0.02});
+    settings.effects.add(Ground{.height = height, .thickness = 0.02});
     settings.integrator.method = Method::quasi_newton;
-    EXPECT_EQ(watch(settings).energy_rise().has_value(), height < -0.1) << height;
+    const auto rise = watch(settings).energy_rise();
+    EXPECT_FALSE(rise && rise->notable()) << height;
+    if (height < -0.1) {
+      EXPECT_TRUE(rise);
+    }
   }
 }
 
