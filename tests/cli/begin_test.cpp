@@ -116,8 +116,8 @@ TEST(Lint, SaysWhyARunWillBeSlow) {
 TEST(Watch, EndsWithCtrlC) {
   const SceneFolder folder;
   folder.write("a.toml", test::least_scene);
-  const Finished finished =
-      test::run_shell(folder, "timeout --preserve-status -s TERM 2 '" DRAPE_EXECUTABLE "' watch a.toml --no-open");
+  const Finished finished = test::run_shell(
+      folder, "timeout --foreground --preserve-status -s TERM 2 '" DRAPE_EXECUTABLE "' watch a.toml --no-open");
   EXPECT_EQ(finished.code, 130) << finished.text;
   EXPECT_EQ(drape(folder, "watch none.toml --no-open").code, 2);
   EXPECT_EQ(drape(folder, "watch a.toml --no-open --port 65536").code, 2);
