@@ -156,12 +156,14 @@ void ContactSolver::find(const Vertices& target, bool turn) {
     for (; from != before_.end() && from->key.source == number; ++from) {
       if (!from->force.isZero(0) || from->beyond > 0) held_.push_back(*from);
     }
+    const auto earlier = std::ssize(contacts_);
     source(number).find(target, number, held_, contacts_);
-    std::erase_if(contacts_, [&](const ContactConstraint& contact) {
+    const auto cannot_move = [&](const ContactConstraint& contact) {
       if (contact.can_move(inverse_masses_)) return false;
       lost_ = lost_ || contact.is_lost(target);
       return true;
-    });
+    };
+    contacts_.erase(std::remove_if(contacts_.begin() + earlier, contacts_.end(), cannot_move), contacts_.end());
   }
   auto known = before_.begin();
   for (ContactConstraint& contact : contacts_) {
@@ -504,13 +506,13 @@ void ContactSolver::move_with_obstacles(Vertices& x) {
 void ContactSolver::retreat(ContactProblem& problem, Iterate& point) {
   if (!any_collides()) return;
   for (int round = 0; round < most_rounds && carried() && any_collides(); ++round) move_with_obstacles(point.x);
-  const Vertices way = point.x - start_;
+  Vertices back = start_;
+  for (const int pin : system_.cloth.pins) back.row(pin) = point.x.row(pin);
+  const Vertices way = point.x - back;
   double part = 1;
   for (int halving = 0; halving <= most_halvings && any_collides(); ++halving) {
     part = halving < most_halvings ? part / 2 : 0;
-    const Vertices end = point.x;
-    point.x = start_ + part * way;
-    for (const int pin : system_.cloth.pins) point.x.row(pin) = end.row(pin);
+    point.x = back + part * way;
     find(point.x, true);
   }
   point.value = problem.evaluate(point.x, point.gradient);

@@ -47,7 +47,7 @@ class GrowingSphere final : public SphereTrack {
   }
 };
 
-// What lies on it rises with its surface, and flies on at that speed once it stops.
+// A sheet on it rises with its surface, and flies on at that speed once it stops.
 TEST_P(Moving, AGrowingSphereCarriesWhatLiesOnIt) {
   SimulationSettings s = settings(plain_sheet(level_square(0.05, 2, GrowingSphere::first + distance), 50), 0.01);
   s.effects = {Sphere{.thickness = distance, .track = std::make_shared<GrowingSphere>()}};
