@@ -22,6 +22,7 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
+#include "run/resources.hpp"
 #include "run/shard.hpp"
 
 namespace drape {

@@ -207,23 +207,7 @@ void use_environment_data() {
 
 namespace {
 
-/// Reads the command line, runs the chosen subcommand and returns the exit code; errors go to standard error.
-ExitCode run_command_line(int argc, const char* const* argv) {
-  CLI::App app("Simulates mass-spring cloth and renders it offscreen into GIF, PNG and MP4.", "drape");
-  app.formatter(std::make_shared<HelpFormatter>());
-  app.set_help_flag("-h,--help", "Print this help");
-  app.set_version_flag("--version", "drape " + build_info().version, "Print the version");
-  app.require_subcommand(1);
-  app.fallthrough();
-  CommonOptions common;
-  common.command = typed_command(std::span(argv, static_cast<std::size_t>(argc)));
-  auto* quiet = app.add_flag("--quiet", common.quiet, "Print errors only");
-  app.add_flag("--verbose", common.verbose, "Print more details")->excludes(quiet);
-
-  add_choice(app, "--color", common.color, {"auto", "always", "never"},
-             "Colours in messages; default auto; NO_COLOR turns them off too");
-
-  Command command;
+void add_commands(CLI::App& app, CommonOptions& common, Command& command) {
   add_new_command(app, common, command);
   add_run_commands(app, common, command);
   add_watch_command(app, common, command);
@@ -248,11 +232,14 @@ ExitCode run_command_line(int argc, const char* const* argv) {
                "render flag.toml\n"
                "render flag.toml --set look.color=navy -o navy.mp4\n"
                "help render");
-  name_values(app);
-  refuse_empty_values(app);
+}
+
+/// Parses the command line and sets up logging. Returns an exit code if there is no command to run: after help, the
+/// version or an error.
+std::optional<ExitCode> parse(CLI::App& app, std::span<const char* const> arguments, const CommonOptions& common) {
   try {
-    refuse_nothing_after_equals(std::span(argv, static_cast<std::size_t>(argc)));
-    app.parse(argc, argv);
+    refuse_nothing_after_equals(arguments);
+    app.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::CallForHelp&) {
     const CLI::App& of = command_of_help(app);
     set_up_logging(common);
@@ -264,15 +251,37 @@ ExitCode run_command_line(int argc, const char* const* argv) {
     return code_or_write_error(ExitCode::ok);
   } catch (const CLI::ParseError& error) {
     set_up_logging(common);
-    if (argc <= 1) {
+    if (arguments.size() <= 1) {
       print_commands(app);
       return code_or_write_error(ExitCode::usage);
     }
-    spdlog::error(explain(app, error, std::span(argv, static_cast<std::size_t>(argc)).subspan(1)));
+    spdlog::error(explain(app, error, arguments.subspan(1)));
     return ExitCode::usage;
   }
-
   set_up_logging(common);
+  return {};
+}
+
+/// Reads the command line, runs the chosen subcommand and returns the exit code; errors go to standard error.
+ExitCode run_command_line(int argc, const char* const* argv) {
+  const std::span arguments(argv, static_cast<std::size_t>(argc));
+  CLI::App app("Simulates mass-spring cloth and renders it offscreen into GIF, PNG and MP4.", "drape");
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.set_help_flag("-h,--help", "Print this help");
+  app.set_version_flag("--version", "drape " + build_info().version, "Print the version");
+  app.require_subcommand(1);
+  app.fallthrough();
+  CommonOptions common;
+  common.command = typed_command(arguments);
+  auto* quiet = app.add_flag("--quiet", common.quiet, "Print errors only");
+  app.add_flag("--verbose", common.verbose, "Print more details")->excludes(quiet);
+  add_choice(app, "--color", common.color, {"auto", "always", "never"},
+             "Colours in messages; default auto; NO_COLOR turns them off too");
+  Command command;
+  add_commands(app, common, command);
+  name_values(app);
+  refuse_empty_values(app);
+  if (const auto ended = parse(app, arguments, common)) return *ended;
   const bool diagnosed = app.got_subcommand("doctor");  // doctor reports environment errors as findings
   return code_or_write_error(reported([&] {
     if (!diagnosed) {

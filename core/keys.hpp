@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "drape/core/rotation.hpp"
-
 namespace drape {
+
+struct Keyframe;  // drape/sim/tracks.hpp
 
 /// One of several names; choosing one calls `set` with its index in `names`.
 struct Choice {

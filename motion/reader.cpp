@@ -239,7 +239,7 @@ namespace {
 // energies (BOOK) and rows in no block yet; last the times.
 constexpr const char* checkpoint_magic = "drape checkpoint 1\n";
 constexpr const char* length_tag = "SIZE";
-constexpr const char* books_tag = "BOOK";
+constexpr const char* memory_tag = "BOOK";
 constexpr const char* held_tag = "HELD";
 constexpr const char* tensions_tag = "PULL";
 constexpr const char* contacts_tag = "BEAR";
@@ -260,16 +260,16 @@ Vertices vertices_of(std::string_view bytes, Eigen::Index count) {
   return v;
 }
 
-EnergyMemory unpack_books(std::string_view payload, Eigen::Index vertices) {
+EnergyMemory unpack_memory(std::string_view payload, Eigen::Index vertices) {
   const std::string bytes = unpack(payload);
   ByteReader reader(bytes);
-  EnergyMemory books;
-  books.explained = reader.number();
-  books.work = reader.number();
+  EnergyMemory memory;
+  memory.explained = reader.number();
+  memory.work = reader.number();
   const bool has_energy = reader.rest().size() > 3 * static_cast<std::size_t>(vertices) * sizeof(double);
-  if (has_energy) books.energy = reader.number();
-  books.checked_at = vertices_of(reader.rest(), vertices);
-  return books;
+  if (has_energy) memory.energy = reader.number();
+  memory.checked_at = vertices_of(reader.rest(), vertices);
+  return memory;
 }
 
 /// Returns all packed numbers.
@@ -290,9 +290,9 @@ bool has_states_until(const MotionReader& partial, std::int64_t step) {
 
 bool is_finite(const ResumePoint& found) {
   const Restraint& restraint = found.checkpoint.state.restraint;
-  const std::optional<EnergyMemory>& books = found.checkpoint.books;
-  const bool known = !books || (std::isfinite(books->explained) && std::isfinite(books->work) &&
-                                std::isfinite(books->energy.value_or(0)) && books->checked_at.allFinite());
+  const std::optional<EnergyMemory>& memory = found.checkpoint.energy_memory;
+  const bool known = !memory || (std::isfinite(memory->explained) && std::isfinite(memory->work) &&
+                                 std::isfinite(memory->energy.value_or(0)) && memory->checked_at.allFinite());
   const auto is_force = [](const ContactForce& contact) { return contact.force.allFinite(); };
   return known && std::ranges::all_of(found.checkpoint.state.contact_forces, is_force) &&
          restraint.acceleration.allFinite() && restraint.tensions.allFinite() &&
@@ -309,8 +309,8 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, ResumePoint& fo
     const Block block = blocks.block(begin);
     if (block.tag == state_tag) {
       found.checkpoint.state = StateCodec(header.vertices, header.step).decode(block.payload);
-    } else if (block.tag == books_tag) {
-      found.checkpoint.books = unpack_books(block.payload, header.vertices);
+    } else if (block.tag == memory_tag) {
+      found.checkpoint.energy_memory = unpack_memory(block.payload, header.vertices);
     } else if (block.tag == held_tag) {
       restraint.acceleration = vertices_of(unpack(block.payload), header.vertices);
     } else if (block.tag == tensions_tag) {
@@ -362,11 +362,11 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
   if (const std::int64_t substeps = checkpoint.state.substeps; substeps > 0) {
     bytes += block(substeps_tag, pack(ByteWriter().whole(static_cast<std::uint64_t>(substeps)).text()));
   }
-  if (const auto& books = checkpoint.books) {
+  if (const auto& memory = checkpoint.energy_memory) {
     ByteWriter writer;
-    writer.number(books->explained).number(books->work);
-    if (books->energy) writer.number(*books->energy);
-    bytes += block(books_tag, pack(writer.bytes(bytes_of(books->checked_at)).text()));
+    writer.number(memory->explained).number(memory->work);
+    if (memory->energy) writer.number(*memory->energy);
+    bytes += block(memory_tag, pack(writer.bytes(bytes_of(memory->checked_at)).text()));
   }
   if (!rows.empty()) bytes += block(rows_tag, pack_rows(rows));
   return bytes + block(times_tag, pack(bytes_of(microseconds)));

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "core/files.hpp"
@@ -311,22 +312,50 @@ std::vector<std::string> GlbWriter::sheet_materials(GltfParts& parts, std::vecto
   return materials;
 }
 
-std::string GlbWriter::json(GltfParts& parts, std::vector<std::string>& tail) {
-  const Look look = film_.look != nullptr ? *film_.look : Look{};
-  std::vector<std::string> meshes, nodes, channels, samplers;
-  const auto add_channel = [&](std::size_t node, const char* path, int input, int output) {
+std::string GlbWriter::animation(GltfParts& parts, std::vector<std::string>& tail,
+                                 const std::vector<std::size_t>& morphing) const {
+  if (morphing.empty() && std::ranges::none_of(balls_, &Ball::moves)) return "";
+  std::vector<std::string> channels, samplers;
+  const std::size_t frames = times_.size();
+  const auto add_floats = [&](const std::vector<float>& values, std::size_t count, const std::string& more) {
+    tail.emplace_back(bytes_of(values));
+    return parts.add_accessor(parts.add_view(4 * values.size()), 0, count, "\"componentType\": 5126, " + more);
+  };
+  const int input =
+      add_floats(times_, frames,
+                 fmt::format("\"type\": \"SCALAR\", \"min\": [0], \"max\": [{}]", static_cast<double>(times_.back())));
+  const auto add_channel = [&](std::size_t node, const char* path, int output) {
     channels.push_back(fmt::format("{{\"sampler\": {}, \"target\": {{\"node\": {}, \"path\": \"{}\"}}}}",
                                    samplers.size(), node, path));
     samplers.push_back(fmt::format("{{\"input\": {}, \"output\": {}, \"interpolation\": \"LINEAR\"}}", input, output));
   };
-  std::vector<std::pair<std::size_t, bool>> morphed;  // index of the node, true if it moves
+  if (!morphing.empty()) {
+    std::vector<float> weights(frames * (frames - 1), 0);
+    for (std::size_t k = 1; k < frames; ++k) weights[k * (frames - 1) + k - 1] = 1;
+    const int shared = add_floats(weights, weights.size(), "\"type\": \"SCALAR\"");
+    for (const std::size_t node : morphing) add_channel(node, "weights", shared);
+  }
+  for (std::size_t k = 0; k < balls_.size(); ++k) {
+    if (!balls_[k].moves) continue;
+    const int output = add_floats(balls_[k].places, frames, "\"type\": \"VEC3\"");
+    add_channel(1 + sheets_.size() + k, "translation", output);
+  }
+  return fmt::format(", \"animations\": [{{\"name\": \"motion\", \"channels\": [{}], \"samplers\": [{}]}}]",
+                     fmt::join(channels, ", "), fmt::join(samplers, ", "));
+}
+
+std::string GlbWriter::json(GltfParts& parts, std::vector<std::string>& tail) {
+  const Look look = film_.look != nullptr ? *film_.look : Look{};
+  std::vector<std::string> meshes, nodes;
+  std::vector<std::size_t> morphing;  // nodes
   const auto add_mesh = [&](const std::string& name, GltfMorphedMesh& mesh, int material_number,
                             const std::string& more) {
     const std::string primitive = mesh.describe(parts, material_number);
-    const bool moves = mesh.moves();
     std::string weights;
-    if (moves) weights = fmt::format(", \"weights\": [{}]", fmt::join(std::vector<int>(times_.size() - 1, 0), ", "));
-    morphed.emplace_back(nodes.size() + 1, moves);
+    if (mesh.moves()) {
+      weights = fmt::format(", \"weights\": [{}]", fmt::join(std::vector<int>(times_.size() - 1, 0), ", "));
+      morphing.push_back(nodes.size() + 1);
+    }
     nodes.push_back(fmt::format("{{\"name\": \"{}\", \"mesh\": {}{}}}", name, meshes.size(), more));
     meshes.push_back(fmt::format("{{\"name\": \"{}\", \"primitives\": [{}]{}}}", name, primitive, weights));
   };
@@ -342,39 +371,11 @@ std::string GlbWriter::json(GltfParts& parts, std::vector<std::string>& tail) {
   }
   for (Solid& solid : solids_) add_mesh(solid.name, *solid.mesh, sheets + (solid.is_ground ? 2 : 1), "");
 
-  const std::size_t frames = times_.size();
-  const bool animated = std::ranges::any_of(morphed, [](const auto& of) { return of.second; }) ||
-                        std::ranges::any_of(balls_, &Ball::moves);
-  if (animated) {
-    tail.emplace_back(bytes_of(times_));
-    const int input =
-        parts.add_accessor(parts.add_view(4 * frames), 0, frames,
-                           fmt::format("\"componentType\": 5126, \"type\": \"SCALAR\", \"min\": [0], \"max\": [{}]",
-                                       static_cast<double>(times_.back())));
-    std::vector<float> weights(frames * (frames - 1), 0);
-    for (std::size_t k = 1; k < frames; ++k) weights[k * (frames - 1) + k - 1] = 1;
-    std::optional<int> shared;
-    for (const auto& [node, moves] : morphed) {
-      if (!moves) continue;
-      if (!shared) {
-        tail.emplace_back(bytes_of(weights));
-        shared = parts.add_accessor(parts.add_view(4 * weights.size()), 0, weights.size(),
-                                    "\"componentType\": 5126, \"type\": \"SCALAR\"");
-      }
-      add_channel(node, "weights", input, *shared);
-    }
-    for (const Ball& ball : balls_) {
-      if (!ball.moves) continue;
-      tail.emplace_back(bytes_of(ball.places));
-      const int output = parts.add_accessor(parts.add_view(4 * ball.places.size()), 0, frames,
-                                            "\"componentType\": 5126, \"type\": \"VEC3\"");
-      add_channel(1 + sheets_.size() + static_cast<std::size_t>(&ball - balls_.data()), "translation", input, output);
-    }
-  }
+  const std::string animations = animation(parts, tail, morphing);
   std::string images;
   const std::vector<std::string> materials = sheet_materials(parts, tail, images);
-  std::vector<int> children;
-  for (std::size_t i = 1; i <= nodes.size(); ++i) children.push_back(static_cast<int>(i));
+  std::vector<std::size_t> children(nodes.size());
+  std::iota(children.begin(), children.end(), std::size_t{1});
   // A rotation by −90° about x turns z up into y up.
   return fmt::format(
       "{{\"asset\": {{\"version\": \"2.0\", \"generator\": \"drape\"}}, \"scene\": 0, \"scenes\": [{{\"nodes\": "
@@ -384,11 +385,7 @@ std::string GlbWriter::json(GltfParts& parts, std::vector<std::string>& tail) {
       "\"buffers\": [{{\"byteLength\": {}}}]{}{}}}",
       fmt::join(children, ", "), fmt::join(nodes, ", "), fmt::join(meshes, ", "), fmt::join(materials, ", "),
       material("sphere", look.sphere_color), material("body", look.body_color), material("ground", look.ground_color),
-      fmt::join(parts.views(), ", "), fmt::join(parts.accessors(), ", "), parts.size(),
-      animated ? fmt::format(", \"animations\": [{{\"name\": \"motion\", \"channels\": [{}], \"samplers\": [{}]}}]",
-                             fmt::join(channels, ", "), fmt::join(samplers, ", "))
-               : "",
-      images);
+      fmt::join(parts.views(), ", "), fmt::join(parts.accessors(), ", "), parts.size(), animations, images);
 }
 
 std::vector<OutputFile> GlbWriter::finish(Ending ending) {

@@ -110,6 +110,10 @@ class GlbWriter final : public MotionWriter {
   /// @param images fields of the textures, if any
   [[nodiscard]] std::vector<std::string> sheet_materials(GltfParts& parts, std::vector<std::string>& tail,
                                                          std::string& images) const;
+  /// Returns the field of the animation, empty if nothing moves, and adds its bytes to the tail.
+  /// @param morphing nodes whose meshes change their shape
+  [[nodiscard]] std::string animation(GltfParts& parts, std::vector<std::string>& tail,
+                                      const std::vector<std::size_t>& morphing) const;
   [[nodiscard]] std::string json(GltfParts& parts, std::vector<std::string>& tail);
 
   FilmInfo film_;

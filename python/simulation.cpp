@@ -268,7 +268,7 @@ void SceneSimulation::restore(const State& checkpoint) {
   if (checkpoint.state.x.rows() != vertices) {
     throw UsageError(fmt::format("the state is of {} vertices, the cloth has {}", checkpoint.state.x.rows(), vertices));
   }
-  if (checkpoint.books) {
+  if (checkpoint.energy_memory) {
     simulation_.restore(checkpoint);
   } else {
     simulation_.restore(checkpoint.state);
@@ -276,7 +276,9 @@ void SceneSimulation::restore(const State& checkpoint) {
   show();
 }
 
-void add_simulation(py::module_& module) {
+namespace {
+
+void add_results_of_steps(py::module_& module) {
   py::class_<StepReport>(module, "StepReport", "How a step was computed.")
       .def_readonly("iterations", &StepReport::iterations, "Linear solves; 0 for a method that has none.")
       .def_readonly("converged", &StepReport::converged, "True if the stopping rule was met within max_iterations.")
@@ -297,6 +299,9 @@ void add_simulation(py::module_& module) {
       .def("__repr__", [](const Energies& e) {
         return fmt::format("Energies(kinetic={}, gravity={}, elastic={})", e.kinetic, e.gravity, e.elastic);
       });
+}
+
+void add_state(py::module_& module) {
   const auto made = [](const State& state) -> const State& { return state.require_made(), state; };
   py::class_<State>(module, "State", "All that the rest of a motion depends on, to the bit. A copy.")
       .def(py::init(&make_state), py::arg("positions"), py::arg("velocities"), py::arg("step") = 0,
@@ -309,10 +314,14 @@ void add_simulation(py::module_& module) {
           "step", [=](const State& s) { return made(s).state.step; }, "Number of steps before it.")
       .def_property_readonly(
           "hash", [=](const State& s) { return hash_of(made(s).state); }, "As Simulation.hash.");
+}
 
-  using Self = SceneSimulation;
-  const auto settings = [](const Self& self) -> const SimulationSettings& { return self.scene().simulation; };
-  py::class_<Self>(module, "Simulation", "A scene in motion.")
+using Self = SceneSimulation;
+
+const SimulationSettings& settings(const Self& self) { return self.scene().simulation; }
+
+void add_motion(py::class_<Self>& simulation) {
+  simulation
       .def(py::init(&make_simulation), py::arg("scene"), py::arg("set") = py::dict(), py::arg("folder") = "",
            py::arg("threads") = 1,
            "Reads a scene: a TOML file, or a dictionary of the same tables, whose files are looked for in `folder`.\n\n"
@@ -346,25 +355,29 @@ void add_simulation(py::module_& module) {
       .def(
           "state", [](Self& self) { return self.with([](auto& s) { return State(s.checkpoint()); }); },
           "A copy of all that the rest of the motion depends on.")
-      .def("restore", &Self::restore, py::arg("state"), "Goes on from a state of the same cloth, at any step.")
+      .def("restore", &Self::restore, py::arg("state"), "Goes on from a state of the same cloth, at any step.");
+}
+
+void add_description(py::class_<Self>& simulation) {
+  simulation
       .def_property_readonly(
-          "step_size", [=](Self& self) { return settings(self).step; }, "h [s]")
+          "step_size", [](Self& self) { return settings(self).step; }, "h [s]")
       .def_property_readonly(
           "step_count", [](Self& self) { return self.scene().step_count(); },
           "Number of steps that cover the scene's duration.")
       .def_property_readonly(
           "duration", [](Self& self) { return self.scene().duration; }, "Duration of the scene [s].")
       .def_property_readonly(
-          "method", [=](Self& self) { return step_method_name(settings(self).integrator.step_method()); },
+          "method", [](Self& self) { return step_method_name(settings(self).integrator.step_method()); },
           "\"liu13\", \"implicit-sdirk2\", …")
       .def_property_readonly(
           "name", [](Self& self) { return self.scene().name; }, "The file's, without its ending.")
       .def_property_readonly(
-          "triangles", [=](Self& self) { return copied(settings(self).cloth.triangles); },
+          "triangles", [](Self& self) { return copied(settings(self).cloth.triangles); },
           "m×3 numbers of vertices, counterclockwise seen from the front. A copy.")
       .def_property_readonly(
           "cloths",
-          [=](Self& self) {
+          [](Self& self) {
             py::dict cloths;
             for (const ClothPiece& piece : settings(self).cloth.pieces) {
               const py::ssize_t first = piece.first_vertex;
@@ -374,22 +387,32 @@ void add_simulation(py::module_& module) {
           },
           "The vertices of each named cloth, as a slice: positions[cloths[\"napkin\"]].")
       .def_property_readonly(
-          "rest", [=](Self& self) { return copied(settings(self).cloth.rest); },
+          "rest", [](Self& self) { return copied(settings(self).cloth.rest); },
           "The shape without strain, n×3 [m]. A copy.")
       .def_property_readonly(
           "masses",
-          [=](Self& self) {
+          [](Self& self) {
             return py::array_t<double>(settings(self).cloth.masses.size(), settings(self).cloth.masses.data());
           },
           "Masses of the vertices, n [kg]. A copy.")
       .def_property_readonly(
           "pins", [](Self& self) { return self.with([](auto& s) { return s.cloth().pins; }); },
           "The vertices that do not move by themselves, as of the last step.")
-      .def("__repr__", [=](Self& self) {
+      .def("__repr__", [](Self& self) {
         return fmt::format("<drape.Simulation of {} at {:g} s, {} vertices, {}>", self.scene().name,
                            self.with([](auto& s) { return s.time(); }), settings(self).cloth.vertex_count(),
                            step_method_name(settings(self).integrator.step_method()));
       });
+}
+
+}  // namespace
+
+void add_simulation(py::module_& module) {
+  add_results_of_steps(module);
+  add_state(module);
+  py::class_<Self> simulation(module, "Simulation", "A scene in motion.");
+  add_motion(simulation);
+  add_description(simulation);
 }
 
 }  // namespace drape::python

@@ -18,7 +18,7 @@
 #include "run/bounded_queue.hpp"
 #include "run/frame_source.hpp"
 #include "run/outputs.hpp"
-#include "run/shard.hpp"
+#include "run/resources.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -56,7 +56,7 @@ void require_whole(const ResumePoint& from, const Simulation& simulation) {
   }
   const Restraint& restraint = kept.state.restraint;
   const bool cut = simulation.settings().accuracy && kept.state.step > 0;
-  if (kept.books.has_value() == simulation.checkpoint().books.has_value() &&
+  if (kept.energy_memory.has_value() == simulation.checkpoint().energy_memory.has_value() &&
       restraint.tensions.size() == expected.tensions.size() &&
       restraint.acceleration.rows() == expected.acceleration.rows() && cut == (kept.state.substeps > 0)) {
     return;

@@ -185,7 +185,7 @@ std::optional<DivergedError> Simulation::Motion::find_fault() {
   const std::optional<double> size = scheme->size();
   if (!std::isfinite(size ? *size : norm(threads, state.x))) return diverged_by(std::nullopt);
   const std::optional<double> growth = guard->check_step(state, forces.push(), forces.constant(), energy);
-  // A step of backward Euler in place of another scheme's has its own books.
+  // A step of backward Euler in place of another scheme's has its own energy balance.
   if (growth && !scheme->first_order()) return diverged_by(growth);
   return std::nullopt;
 }
@@ -195,7 +195,7 @@ StepReport Simulation::Motion::step() {
   if (phases.size() > 1) enter_phase();
   if (may_be_interrupted() || scheme->can_redo()) {
     before.state = state;
-    if (const EnergyMemory* books = guard->books()) before.books = *books;
+    if (const EnergyMemory* memory = guard->memory()) before.energy_memory = *memory;
   }
   StepReport report = take([this] { return scheme->advance(state, forces); });
   std::optional<DivergedError> fault = find_fault();
@@ -213,7 +213,7 @@ StepReport Simulation::Motion::step() {
 
 void Simulation::Motion::restore(const Simulation::Checkpoint& checkpoint) {
   state = checkpoint.state;
-  if (checkpoint.books) guard->restore(*checkpoint.books);
+  if (checkpoint.energy_memory) guard->restore(*checkpoint.energy_memory);
 }
 
 Energies Simulation::Motion::energies() {
@@ -274,8 +274,8 @@ void Simulation::restore(const State& state) {
 }
 
 Simulation::Checkpoint Simulation::checkpoint() const {
-  const EnergyMemory* books = motion_->guard->books();
-  return {motion_->state, books == nullptr ? std::nullopt : std::optional(*books)};
+  const EnergyMemory* memory = motion_->guard->memory();
+  return {motion_->state, memory == nullptr ? std::nullopt : std::optional(*memory)};
 }
 
 void Simulation::restore(const Checkpoint& checkpoint) { motion_->restore(checkpoint); }

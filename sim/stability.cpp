@@ -236,20 +236,20 @@ BlowUpWatch::BlowUpWatch(const System& system, double limit, int interval)
     : step_(system.whole_step), limit_(limit), interval_(interval), rounding_(energy_rounding(system)) {}
 
 void BlowUpWatch::begin(const State& state, double energy) {
-  books_ = {.explained = std::max(energy, rounding_), .checked_at = state.x, .work = 0, .energy = {}};
+  memory_ = {.explained = std::max(energy, rounding_), .checked_at = state.x, .work = 0, .energy = {}};
 }
 
 std::optional<double> BlowUpWatch::check_step(const State& state, const Vertices& push, bool constant,
                                               const std::function<double(double enough)>& energy) {
-  if (!constant) books_.work += step_ * std::abs(push.cwiseProduct(state.v).sum());
+  if (!constant) memory_.work += step_ * std::abs(push.cwiseProduct(state.v).sum());
   if (state.step % interval_ != 0) return std::nullopt;
-  if (constant) books_.work = std::abs(push.cwiseProduct(state.x - books_.checked_at).sum());
-  books_.explained += books_.work;
-  books_.checked_at = state.x;
-  books_.work = 0;
-  const double now = energy(limit_ * books_.explained);
-  if (!(now > limit_ * books_.explained)) return std::nullopt;
-  return now / books_.explained;
+  if (constant) memory_.work = std::abs(push.cwiseProduct(state.x - memory_.checked_at).sum());
+  memory_.explained += memory_.work;
+  memory_.checked_at = state.x;
+  memory_.work = 0;
+  const double now = energy(limit_ * memory_.explained);
+  if (!(now > limit_ * memory_.explained)) return std::nullopt;
+  return now / memory_.explained;
 }
 
 DivergedError diverged(const State& state, double time, std::optional<double> growth, const std::string& remedy) {

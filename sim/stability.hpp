@@ -66,9 +66,9 @@ class BlowUpWatch {
   void begin(const State& state, double energy);
 
   /// Returns the checkpoint state.
-  [[nodiscard]] const EnergyMemory& books() const { return books_; }
+  [[nodiscard]] const EnergyMemory& memory() const { return memory_; }
   /// Restores a checkpoint state.
-  void restore(const EnergyMemory& books) { books_ = books; }
+  void restore(const EnergyMemory& memory) { memory_ = memory; }
 
   /// Adds the work of a step that has ended, and checks the energy after every interval, see
   /// StabilityGuard::check_step.
@@ -80,7 +80,7 @@ class BlowUpWatch {
   double limit_;
   int interval_;
   double rounding_;  // see energy_rounding() [J]
-  EnergyMemory books_;
+  EnergyMemory memory_;
 };
 
 /// Returns an error that names the step, the time, the worst vertex (the first non-finite, or else the fastest), the

@@ -18,6 +18,7 @@
 #include "output/registry.hpp"
 #include "render/gl/context.hpp"
 #include "run/outputs.hpp"
+#include "run/resources.hpp"
 #include "run/shard.hpp"
 #include "sweep/page.hpp"
 

@@ -22,7 +22,7 @@ namespace drape {
 /// ones have not slipped, within the tolerance. Contacts are added once an iteration brings features near or makes them
 /// collide on the straight path of the step.
 ///
-/// A hard contact takes energy from the cloth and stores none. EnergyBooks checks steps that stop early.
+/// A hard contact takes energy from the cloth and stores none. EnergyBalance checks steps that stop early.
 class ContactSolver {
  public:
   explicit ContactSolver(const System& system);

@@ -22,13 +22,13 @@ FieldSolve::FieldSolve(const System& system, const StepObjective& objective)
       objective_(objective),
       fields_(system),
       drag_(*system.drag),
-      history_(system.cloth.vertex_count()) {}
+      iteration_(system.cloth.vertex_count()) {}
 
 void FieldSolve::begin(const State& from, double end) {
   const double t = objective_.duration();
   time_ = end;
   start_ = from.x;
-  history_.clear();
+  iteration_.clear();
   rounds_ = 0;
   over_ = converged_ = false;
   // Slopes and the first c use the positions predicted by the velocities.
@@ -76,13 +76,13 @@ bool FieldSolve::improve(Vertices& x, const Minimiser& minimiser) {
 void FieldSolve::advance(Vertices& x) {
   const bool nearest = error_ == least_error_;
   if (nearest && rounds_ % rounds_with_a_slope == 1 && drag_.begin(state_, time_, start_)) {
-    history_.clear();
+    iteration_.clear();
     c_ = acceleration_;
     drag_.add_pull(x, c_);
     return;
   }
   before_ = c_;
-  if (!history_.advance(residual_, c_)) {
+  if (!iteration_.advance(residual_, c_)) {
     before_ = best_c_;
     x = best_x_;
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/solvers/local_global.hpp"
+#include "sim/solvers/anderson.hpp"
 #include "sim/solvers/minimiser.hpp"
 #include "sim/step_objective.hpp"
 #include "sim/velocity_field.hpp"
@@ -42,7 +42,7 @@ class FieldSolve {
   const StepObjective& objective_;
   VelocityFields fields_;
   FieldDrag& drag_;
-  AndersonHistory history_;
+  AndersonIteration iteration_;
   State state_;                                // at the end of the step
   Vertices start_, c_, acceleration_, force_;  // x₀; [m/s²], [m/s²], [N]
   Vertices residual_, before_;                 // T(c) − c, and the previous c [m/s²]

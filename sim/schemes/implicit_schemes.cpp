@@ -11,7 +11,7 @@ namespace drape {
 BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver, bool instantaneous)
     : MinimisingScheme(system, system.step, make_solver, Directions::at_start),
       instantaneous_(instantaneous),
-      books_(system, objective_, *solver_) {
+      balance_(system, objective_, *solver_) {
   if (!system.contacts.empty() || !system.limits.empty()) contact_.emplace(system);
   if (system.limits.empty()) return;
   limited_ = point_;
@@ -42,19 +42,19 @@ void BackwardEuler::balance_in_contact() {
   static_cast<void>(contact_->touches(point_.x));
 }
 
-double BackwardEuler::shed(bool held) {
-  if (!contact_ || held) return books_.shed(point_, held);
+double BackwardEuler::shorten(bool held) {
+  if (!contact_ || held) return balance_.remove_gain(point_, held);
   const Iterate end = point_;
-  const double part = books_.shed(point_);
+  const double part = balance_.remove_gain(point_);
   // Free fall may lead beyond an obstacle. The path back to the start of the step is clear.
   if (!contact_->collides(point_.x)) return part;
   point_ = end;
-  return books_.shed(point_, true);
+  return balance_.remove_gain(point_, true);
 }
 
-double BackwardEuler::shed_beside_moving(double work) {
+double BackwardEuler::shorten_beside_moving(double work) {
   const Iterate end = point_;
-  const double part = books_.shed(point_, true, std::max(0.0, work));
+  const double part = balance_.remove_gain(point_, true, std::max(0.0, work));
   // The obstacle may have moved beyond what stays behind.
   if (!contact_->collides(point_.x)) return part;
   point_ = end;
@@ -77,21 +77,21 @@ bool BackwardEuler::is_blocked_by_contact(const State& from, const Vertices& x) 
   return contact_->is_blocked(x);
 }
 
-void BackwardEuler::close_books(StepReport& report) {
+void BackwardEuler::remove_gain(StepReport& report) {
   if (touched_) {
     const double met = report.converged ? contact_->tolerance() : 0;
     const double work = contact_->work(point_.x, report.converged);
-    if (!books_.gains_in_contact(point_, work, met)) return;
+    if (!balance_.gains_in_contact(point_, work, met)) return;
     if (!contact_->carried()) {
-      report.kept = shed(contact_->touches_obstacles());
-    } else if (books_.gains_much(point_, work)) {
-      report.kept = shed_beside_moving(work);
+      report.kept = shorten(contact_->touches_obstacles());
+    } else if (balance_.gains_much(point_, work)) {
+      report.kept = shorten_beside_moving(work);
     }
   } else {
     // The minimiser has checked a step that ended by small changes, unless it was just moved.
     const bool checked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
-    if (checked || !books_.gains(point_, report.converged)) return;
-    report.kept = shed(false);
+    if (checked || !balance_.gains(point_, report.converged)) return;
+    report.kept = shorten(false);
   }
   report.converged = false;
 }
@@ -102,7 +102,7 @@ bool BackwardEuler::limit_strain(State& state, StepReport& report) {
   sum(system_.threads, state.x, system_.step, limited_v_, limited_.x);
   system_.place_pins(system_.time(state.step + 1), limited_.x);
   limited_.value = objective_.evaluate(limited_.x, limited_.gradient);
-  if (books_.adds(point_, limited_, system_.tolerated_gain()) || contact_->touches(limited_.x)) return false;
+  if (balance_.adds(point_, limited_, system_.tolerated_gain()) || contact_->touches(limited_.x)) return false;
   // The gradient is still that of the minimum, which tells how well it was solved.
   std::swap(point_.x, limited_.x);
   point_.value = limited_.value;
@@ -120,8 +120,8 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
     steady_ = state.x + system_.step * state.v;
     system_.place_pins(system_.time(state.step + 1), steady_);
   }
-  const auto begun = [&] { books_.begin(state, point_.x); };
-  const auto minimise = [&] { return solve_step(steady_, [this] { return !books_.gains(point_, true); }); };
+  const auto begun = [&] { balance_.begin(state, point_.x); };
+  const auto minimise = [&] { return solve_step(steady_, [this] { return !balance_.gains(point_, true); }); };
   const auto solve = [&] {
     const StepReport report =
         solve_with_fields(state, force, system_.time(state.step + 1), expected.late, begun, minimise);
@@ -129,21 +129,21 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
     return report;
   };
   StepReport report = solve();
-  if (!touched_) close_books(report);
+  if (!touched_) remove_gain(report);
   if (!touched_ && !system_.filters.empty() && !limit_strain(state, report)) {
     contact_->include_limits();
     const int before = report.iterations;
     report = solve();
     report.iterations += before;
-    if (!touched_) close_books(report);
+    if (!touched_) remove_gain(report);
   }
   if (touched_) {
-    close_books(report);
+    remove_gain(report);
     if (!system_.limits.empty()) state.restraint = nothing_held_;
   }
   if (is_lost()) report.converged = false;
   if (fields_) forces.record_velocity_force(fields_->end());
-  books_.end(point_);
+  balance_.end(point_);
   divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
   copy(system_.threads, point_.x, state.x);
   state.contact_forces.clear();
@@ -292,28 +292,28 @@ Sdirk2Guard::Sdirk2Guard(const System& system)
 
 void Sdirk2Guard::begin(const State& state, double energy) {
   if (!watches_) return;
-  books_ = {.explained = std::max(energy, rounding_), .checked_at = state.x, .work = energy, .energy = energy};
+  memory_ = {.explained = std::max(energy, rounding_), .checked_at = state.x, .work = energy, .energy = energy};
 }
 
-void Sdirk2Guard::restore(const EnergyMemory& books) {
-  if (watches_) books_ = books;
+void Sdirk2Guard::restore(const EnergyMemory& memory) {
+  if (watches_) memory_ = memory;
 }
 
 std::optional<double> Sdirk2Guard::check_step(const State& state, const Vertices& push, bool /*constant*/,
                                               const EnergyNow& energy) {
   if (!watches_) return std::nullopt;
-  EnergyMemory& books = *books_;
-  const double work = push.cwiseProduct(state.x - books.checked_at).sum();
-  const double before = books.energy.value_or(books.work);
-  books.work += work;
-  books.explained = std::max(books.explained, books.work);
-  const double slack = most_gain * books.explained;
-  const double most = before + work + std::clamp(books.work + slack - before - work, 0.0, slack);
+  EnergyMemory& memory = *memory_;
+  const double work = push.cwiseProduct(state.x - memory.checked_at).sum();
+  const double before = memory.energy.value_or(memory.work);
+  memory.work += work;
+  memory.explained = std::max(memory.explained, memory.work);
+  const double slack = most_gain * memory.explained;
+  const double most = before + work + std::clamp(memory.work + slack - before - work, 0.0, slack);
   const double now = energy(most);
-  books.energy = now;
-  books.checked_at = state.x;
+  memory.energy = now;
+  memory.checked_at = state.x;
   if (now <= most) return std::nullopt;
-  return now / books.explained;
+  return now / memory.explained;
 }
 
 std::string Sdirk2Guard::remedy() const {

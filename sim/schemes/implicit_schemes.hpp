@@ -11,7 +11,7 @@
 #include "sim/contact/contact_solver.hpp"
 #include "sim/dashpots.hpp"
 #include "sim/parallel/vectors.hpp"
-#include "sim/schemes/energy_books.hpp"
+#include "sim/schemes/energy_balance.hpp"
 #include "sim/schemes/field_solve.hpp"
 #include "sim/schemes/scheme.hpp"
 #include "sim/schemes/stability_guard.hpp"
@@ -150,7 +150,7 @@ class MinimisingScheme : public Scheme {
 };
 
 /// Backward (implicit) Euler as a minimisation: x' = argmin g, v' = (x' − x)/h, then the corrections. It gains no
-/// energy beyond the tolerance of EnergyBooks.
+/// energy beyond the tolerance of EnergyBalance.
 ///
 /// For a free cloth every solve ends with balance_momentum().
 class BackwardEuler final : public MinimisingScheme {
@@ -173,12 +173,12 @@ class BackwardEuler final : public MinimisingScheme {
  private:
   /// Shortens the step until it gains no energy, along a path free of collisions. Returns the remaining fraction.
   /// @param held true if contacts hold the cloth
-  double shed(bool held);
+  double shorten(bool held);
   /// Does so in contact with moving obstacles, which may do this work [J], unless they would move into the cloth.
-  double shed_beside_moving(double work);
+  double shorten_beside_moving(double work);
 
   /// Shortens a solved step that gains energy, and reports it as not converged.
-  void close_books(StepReport& report);
+  void remove_gain(StepReport& report);
 
   /// Lets the filters change the end of a step without contact, which the point is. Returns false if this would gain
   /// energy or lead into contact; the limits must then be solved with the cloth.
@@ -194,7 +194,7 @@ class BackwardEuler final : public MinimisingScheme {
   StepReport solve_step(const Vertices& steady, const std::function<bool()>& may_end);
 
   bool instantaneous_;
-  EnergyBooks books_;
+  EnergyBalance balance_;
   std::optional<ContactSolver> contact_;   // if the cloth can touch anything
   std::optional<ContactProblem> problem_;  // of contact, created on first use
   bool touched_ = false;                   // true if the last step was solved under contacts
@@ -284,15 +284,15 @@ class Sdirk2Guard final : public StabilityGuard {
   void begin(const State& state, double energy) override;
   std::optional<double> check_step(const State& state, const Vertices& push, bool constant,
                                    const EnergyNow& energy) override;
-  [[nodiscard]] const EnergyMemory* books() const override { return books_ ? &*books_ : nullptr; }
-  void restore(const EnergyMemory& books) override;
+  [[nodiscard]] const EnergyMemory* memory() const override { return memory_ ? &*memory_ : nullptr; }
+  void restore(const EnergyMemory& memory) override;
   [[nodiscard]] std::string remedy() const override;
 
  private:
   ConditionGuard condition_;
   bool watches_;
   double rounding_;  // see energy_rounding() [J]
-  std::optional<EnergyMemory> books_;
+  std::optional<EnergyMemory> memory_;
 };
 
 }  // namespace drape

@@ -38,8 +38,8 @@ std::optional<double> SafeStepGuard::check_step(const State& state, const Vertic
   return watch_ ? watch_->check_step(state, push, constant, energy) : std::nullopt;
 }
 
-void SafeStepGuard::restore(const EnergyMemory& books) {
-  if (watch_) watch_->restore(books);
+void SafeStepGuard::restore(const EnergyMemory& memory) {
+  if (watch_) watch_->restore(memory);
 }
 
 std::string SafeStepGuard::remedy() const {

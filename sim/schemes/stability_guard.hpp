@@ -41,9 +41,9 @@ class StabilityGuard {
   }
 
   /// Returns the checkpoint state of the watch, or null.
-  [[nodiscard]] virtual const EnergyMemory* books() const { return nullptr; }
+  [[nodiscard]] virtual const EnergyMemory* memory() const { return nullptr; }
   /// Restores the checkpoint state of a motion.
-  virtual void restore(const EnergyMemory& /*books*/) {}
+  virtual void restore(const EnergyMemory& /*memory*/) {}
 
   /// Returns the advice for a motion that blew up, as the end of a message.
   [[nodiscard]] virtual std::string remedy() const = 0;
@@ -61,8 +61,8 @@ class SafeStepGuard final : public StabilityGuard {
   void begin(const State& state, double energy) override;
   std::optional<double> check_step(const State& state, const Vertices& push, bool constant,
                                    const EnergyNow& energy) override;
-  [[nodiscard]] const EnergyMemory* books() const override { return watch_ ? &watch_->books() : nullptr; }
-  void restore(const EnergyMemory& books) override;
+  [[nodiscard]] const EnergyMemory* memory() const override { return watch_ ? &watch_->memory() : nullptr; }
+  void restore(const EnergyMemory& memory) override;
   [[nodiscard]] std::string remedy() const override;
 
  private:

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <deque>
+
+#include "drape/sim/mesh.hpp"
 
 namespace drape {
 
@@ -27,6 +31,39 @@ class AndersonAcceleration {
   };
   std::size_t depth_;
   std::deque<Iterate> history_;  // oldest first
+};
+
+/// A fixed-point iteration c = T(c) with Anderson acceleration that also converges where T does not contract: if the
+/// residual grows, it returns to the best point. AndersonAcceleration instead follows a T that changes.
+///
+/// Keeps the last few differences of the residuals T(c) − c in orthonormal form, together with the matching differences
+/// of c, n×3. Inner products with these give the combination of least residual. For linear T this is the GCR method.
+class AndersonIteration {
+ public:
+  /// @param unknowns n
+  explicit AndersonIteration(Eigen::Index unknowns);
+
+  /// Resets for another iteration.
+  void clear();
+  /// Replaces c, given its residual, by the next iterate. Returns false if it returned to the best point.
+  bool advance(const Vertices& residual, Vertices& c);
+
+ private:
+  struct Pair {
+    Vertices residual, c;  // differences
+  };
+  static constexpr std::size_t most_pairs = 12;
+
+  /// Stores the difference of the last two points.
+  void observe(const Vertices& residual, const Vertices& c);
+
+  std::array<Pair, most_pairs> pairs_;
+  std::size_t count_ = 0, oldest_ = 0;
+  Vertices last_residual_, last_c_;  // of the last point, if begun_
+  Vertices best_residual_, best_c_;  // of the point with the least residual, if begun_
+  double best_ = 0;                  // norm of its residual
+  double length_ = 1;                // step length from the best point after a return
+  bool begun_ = false;
 };
 
 }  // namespace drape

@@ -60,7 +60,7 @@ struct SealedMotion {
       writer.add(row);
       writer.add(state);
       if (step != 4) continue;
-      last.books = EnergyMemory{1, state.x, 2, 3};
+      last.energy_memory = EnergyMemory{1, state.x, 2, 3};
       state.restraint = {.acceleration = state.v, .tensions = Eigen::VectorXd::Ones(5)};
       state.contact_forces = {{.key = {0, 1, 2, 3, 0, 1}, .force = {0, 0, 1}}};
       state.substeps = 6;

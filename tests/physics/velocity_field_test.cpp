@@ -9,7 +9,7 @@
 #include "drape/sim/effects/acceleration.hpp"
 #include "drape/sim/effects/air.hpp"
 #include "drape/sim/simulation.hpp"
-#include "sim/solvers/local_global.hpp"
+#include "sim/solvers/anderson.hpp"
 #include "sim/stability.hpp"
 #include "sim/system.hpp"
 #include "sim/velocity_field.hpp"
@@ -242,12 +242,12 @@ TEST(FieldDrag, HasTheDerivativesThatItSays) {
 TEST(Anderson, FindsTheFixedPointOfALinearIteration) {
   const Vertices target = random_vertices(40, 7);
   const std::array factors = {0.9, -3.0, 0.2, 5.0};
-  AndersonHistory history(40);
+  AndersonIteration iteration(40);
   Vertices c = Vertices::Zero(40, 3), residual;
   for (int step = 0; step < 5; ++step) {
     residual = target - c;
     for (Eigen::Index i = 0; i < 40; ++i) residual.row(i) *= 1 - factors.at(static_cast<std::size_t>(i % 4));
-    history.advance(residual, c);
+    iteration.advance(residual, c);
   }
   EXPECT_LT((c - target).norm(), 1e-9 * target.norm());
 }

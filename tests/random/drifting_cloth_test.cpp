@@ -1,5 +1,5 @@
 // A flat cloth that drifts slowly gains no energy, however it lies in space. Bending adds large terms of either sign
-// there, whose rounding the books have to know.
+// there, whose rounding the energy balance has to know.
 
 #include <gtest/gtest.h>
 

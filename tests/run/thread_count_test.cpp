@@ -1,4 +1,4 @@
-#include "run/shard.hpp"
+#include "run/resources.hpp"
 
 #include <gtest/gtest.h>
 

@@ -41,7 +41,7 @@ struct StepBalance {
   [[nodiscard]] Real gain_rounding() const;
 };
 
-/// Energy books of a simulation's steps, computed independently of the simulation.
+/// Energy balance of a simulation's steps, computed independently of the simulation.
 class StepLedger {
  public:
   /// @param settings must outlive this object

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 namespace drape {
@@ -8,11 +7,5 @@ namespace drape {
 /// Returns the shortest rotation that takes the z axis to the direction of `to`, a vector of any length but zero. For
 /// −z it is half a turn around the x axis. Eigen's FromTwoVectors would compile a singular value decomposition.
 Eigen::Quaterniond rotation_from_z(const Eigen::Vector3d& to);
-
-/// A value at one time.
-struct Keyframe {
-  double time = 0;  ///< [s]
-  Eigen::Vector3d value = Eigen::Vector3d::Zero();
-};
 
 }  // namespace drape

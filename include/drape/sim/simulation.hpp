@@ -58,7 +58,7 @@ class Simulation {
   /// Complete state of a motion: a continued run gives the same bits, including the step in which it diverges.
   struct Checkpoint {
     State state;
-    std::optional<EnergyMemory> books;  ///< if the energy is watched
+    std::optional<EnergyMemory> energy_memory;  ///< if the energy is watched
   };
   [[nodiscard]] Checkpoint checkpoint() const;
   /// Restores a checkpoint of a simulation with the same settings and continues exactly like it.

@@ -9,6 +9,7 @@
 //   drape::Sphere thrown;
 //   thrown.track = drape::straight_track({.center = {-2, 0, 0}, .radius = 0.3}, {4, 0, 0});
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -16,11 +17,16 @@
 #include <optional>
 #include <vector>
 
-#include "drape/core/rotation.hpp"
 #include "drape/sim/mesh.hpp"
 #include "drape/sim/state.hpp"
 
 namespace drape {
+
+/// A value at one time.
+struct Keyframe {
+  double time = 0;  ///< [s]
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+};
 
 /// Interpolation of a value between keyframes.
 enum class Interpolation {

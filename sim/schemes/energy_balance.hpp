@@ -13,17 +13,17 @@ namespace drape {
 /// At the iteration cap it is shortened towards x until it gains nothing. So a method far from its minimum, like liu13
 /// with very stiff springs, or at a minimum of a crumpled cloth, loses energy and never gains any.
 ///
-/// Dashpots add their dissipation potential P to g. It is zero at the start and dissipates 2 P, so the books count half
-/// of the dissipation as energy of the cloth at the end of the step.
+/// Dashpots add their dissipation potential P to g. It is zero at the start and dissipates 2 P, so the balance counts
+/// half of the dissipation as energy of the cloth at the end of the step.
 ///
 /// One gain is tolerated if the tolerance is met, since the homework's tolerances stop there. It is a tenth of the
 /// largest work of the forces in a step, ‖h M⁻¹f‖_M ‖v'‖_M. In return the step must lose as much elsewhere, ½‖v' −
 /// v‖²_M, or the forces must take as much, −W. This gain is proportional to the speed and independent of the cloth's
 /// energy, so it cannot compound. The gradient rule tolerates the work of its residual, tolerance·‖Δx‖. The error rule,
 /// with the error δ, tolerates that of its residual forces, Σ m/h² δ ‖Δxᵢ‖.
-class EnergyBooks {
+class EnergyBalance {
  public:
-  EnergyBooks(const System& system, const StepObjective& objective, const Minimiser& minimiser);
+  EnergyBalance(const System& system, const StepObjective& objective, const Minimiser& minimiser);
 
   /// Stores the energy at the start of a step, whose y the objective has.
   /// @param state must not change until the step ends
@@ -47,7 +47,7 @@ class EnergyBooks {
   /// remaining fraction of the path. A free cloth moves towards its rigid translation instead.
   /// @param touches true if contacts hold the cloth
   /// @param allowed [J]
-  double shed(Iterate& point, bool touches = false, double allowed = 0);
+  double remove_gain(Iterate& point, bool touches = false, double allowed = 0);
   /// Stores the energy at the end of the step.
   void end(const Iterate& point);
 

@@ -1,4 +1,4 @@
-#include "sim/schemes/energy_books.hpp"
+#include "sim/schemes/energy_balance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,14 @@
 namespace drape {
 namespace {
 
-// Fraction of the forces' largest work, see EnergyBooks. The homework's loosest tolerance gains up to 0.081 of it and
+// Fraction of the forces' largest work, see EnergyBalance. The homework's loosest tolerance gains up to 0.081 of it and
 // still stops after two iterations.
 constexpr double tolerated_share = 0.1;
 constexpr double least_kept = 1e-10;
 // Fraction of the kinetic energy that is noticed in steps with contact: velocities are differences of rounded
 // positions.
 constexpr double noticed = 1e-9;
-constexpr double much = 0.01;  // see EnergyBooks::gains_much()
+constexpr double much = 0.01;  // see EnergyBalance::gains_much()
 
 /// Returns Σ m a·b over the rows of n×3 expressions.
 double inner(const Threads& threads, const Eigen::VectorXd& m, const auto& a, const auto& b) {
@@ -58,14 +58,14 @@ void balance_momentum(const Cloth& cloth, const StepObjective& objective, Iterat
   point.gradient.noalias() += objective.inertia() * shift;
 }
 
-EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, const Minimiser& minimiser)
+EnergyBalance::EnergyBalance(const System& system, const StepObjective& objective, const Minimiser& minimiser)
     : system_(system),
       objective_(objective),
       minimiser_(minimiser),
       steady_(system.pin_motions.empty() && system.drag == nullptr),
       springs_(system.energies.empty()) {}
 
-void EnergyBooks::begin(const State& state, const Vertices& last_end) {
+void EnergyBalance::begin(const State& state, const Vertices& last_end) {
   const double h = system_.step;
   state_ = &state;
   start_kinetic_ = 0.5 * h * h * inner(system_.threads, objective_.free_inertia(), state.v, state.v);
@@ -83,7 +83,7 @@ void EnergyBooks::begin(const State& state, const Vertices& last_end) {
   }
 }
 
-bool EnergyBooks::gains(const Iterate& point, bool tolerant) {
+bool EnergyBalance::gains(const Iterate& point, bool tolerant) {
   const auto too_much = [&] {
     const double surplus = gain(point) - rounding(point);
     return surplus > 0 && !(tolerant && surplus <= tolerated(point));
@@ -94,7 +94,7 @@ bool EnergyBooks::gains(const Iterate& point, bool tolerant) {
   return too_much();
 }
 
-bool EnergyBooks::gains_in_contact(const Iterate& point, double work, double tolerance) {
+bool EnergyBalance::gains_in_contact(const Iterate& point, double work, double tolerance) {
   if (!start_exact_) evaluate_start();
   const Accuracy& accuracy = minimiser_.accuracy();
   const bool given = tolerance > 0 && !accuracy.usual && accuracy.rule == StoppingRule::error;
@@ -102,19 +102,19 @@ bool EnergyBooks::gains_in_contact(const Iterate& point, double work, double tol
   return gain(point) - work > rounding(point) + noticed * start_kinetic_ + solved;
 }
 
-bool EnergyBooks::adds(const Iterate& from, const Iterate& to, double tolerated) {
+bool EnergyBalance::adds(const Iterate& from, const Iterate& to, double tolerated) {
   const auto too_much = [&] { return gain(to) > std::max(0.0, gain(from)) + tolerated + rounding(to); };
   if (!too_much()) return false;
   if (!start_exact_) evaluate_start();
   return too_much();
 }
 
-bool EnergyBooks::gains_much(const Iterate& point, double work) const {
+bool EnergyBalance::gains_much(const Iterate& point, double work) const {
   const double given = std::max(0.0, work);
   return gain(point) - given > much * (start_kinetic_ + given);
 }
 
-void EnergyBooks::evaluate_start() {
+void EnergyBalance::evaluate_start() {
   start_.x = state_->x;
   start_.gradient.resize(start_.x.rows(), 3);
   system_.place_pins(system_.time(state_->step + 1), start_.x);
@@ -122,23 +122,23 @@ void EnergyBooks::evaluate_start() {
   start_exact_ = true;
 }
 
-double EnergyBooks::gain(const Iterate& point) const {
+double EnergyBalance::gain(const Iterate& point) const {
   // With g written out: g(x') − g(x) = ΔK + ΔE − W + K − h⁻¹Δx·M v.
   const double along = system_.step * inner(system_.threads, objective_.free_inertia(), point.x - state_->x, state_->v);
   return point.value - start_.value - start_kinetic_ + along;
 }
 
-double EnergyBooks::rounding(const Iterate& point) const {
+double EnergyBalance::rounding(const Iterate& point) const {
   // |h⁻¹Δx·M v| is at most the sum of K and the inertial terms at both ends.
   return objective_.rounding(point.value) + objective_.rounding(start_.value) + objective_.rounding(start_kinetic_);
 }
 
-double EnergyBooks::lost(const Iterate& point) const {
+double EnergyBalance::lost(const Iterate& point) const {
   const auto change = point.x - state_->x - system_.step * state_->v;  // h Δv
   return 0.5 * inner(system_.threads, objective_.free_inertia(), change, change);
 }
 
-double EnergyBooks::tolerated(const Iterate& point) const {
+double EnergyBalance::tolerated(const Iterate& point) const {
   const double h = system_.step;
   const Eigen::VectorXd& inertia = objective_.free_inertia();
   const auto way = point.x - state_->x;
@@ -152,7 +152,7 @@ double EnergyBooks::tolerated(const Iterate& point) const {
   return std::min(tolerated_share * most, std::max(lost(point), -work));
 }
 
-double EnergyBooks::shed(Iterate& point, bool touches, double allowed) {
+double EnergyBalance::remove_gain(Iterate& point, bool touches, double allowed) {
   Vertices back = start_.x;
   if (is_free(system_) && !touches)
     back.rowwise() += mean(system_.cloth, objective_.y()) - mean(system_.cloth, start_.x);
@@ -177,7 +177,7 @@ double EnergyBooks::shed(Iterate& point, bool touches, double allowed) {
   return length;
 }
 
-void EnergyBooks::end(const Iterate& point) {
+void EnergyBalance::end(const Iterate& point) {
   if (!steady_) return;
   // Use the lower bound, so that a continued motion matches one that starts here.
   double energy = point.value - objective_.inertial_value(point.x);
