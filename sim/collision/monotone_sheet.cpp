@@ -1,7 +1,7 @@
 #include "sim/collision/monotone_sheet.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -20,7 +20,8 @@ using Eigen::Vector2d;
 constexpr double flatness =
     1e-9;                        // largest distance from the plane, and least turn of the outline, relative to the size
 constexpr double margin = 1.01;  // for rounding errors
-constexpr double reach = 2;      // search radius for close features in the flat shape, in distances
+constexpr double least_ratio = 1e-6;  // of the squared stretches along the mean plane, the smaller to the larger
+constexpr double reach = 2;           // search radius for close features in the flat shape, in distances
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -122,10 +123,14 @@ bool MonotoneSheet::choose_plane(const std::vector<Point>& x) {
     mean.col(0) += weights_[i][0] * x[i];
     mean.col(1) += weights_[i][1] * x[i];
   }
-  // The rotation of the polar decomposition: with it the mean gradient is symmetric.
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> squared(mean.transpose() * mean);
-  if (!(squared.eigenvalues()[0] > 1e-6 * squared.eigenvalues()[1])) return false;
-  const Eigen::Matrix<double, 3, 2> axes = mean * squared.operatorInverseSqrt();
+  // The rotation of the polar decomposition F·(FᵀF)^(−1/2): with it the mean gradient F is symmetric.
+  const Matrix2d squared = mean.transpose() * mean;
+  const double trace = squared.trace(), determinant = squared.determinant();
+  if (!(determinant > least_ratio * trace * trace)) return false;
+  const double root = std::sqrt(determinant);
+  // The square root of a symmetric 2×2 matrix S, by the theorem of Cayley and Hamilton: (S + √det S)/√(tr S + 2√det S).
+  const Matrix2d stretch = (squared + root * Matrix2d::Identity()) / std::sqrt(trace + 2 * root);
+  const Eigen::Matrix<double, 3, 2> axes = mean * stretch.inverse();
   first_ = axes.col(0);
   second_ = axes.col(1);
   return true;

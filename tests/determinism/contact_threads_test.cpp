@@ -21,12 +21,6 @@ using test::setup;
 namespace {
 
 constexpr int cells = 92;  // enough vertices to be divided, and few more
-// A sanitizer is ten times slower, and looks for races rather than for other bits.
-#ifdef DRAPE_SANITIZED
-constexpr bool watched = true;
-#else
-constexpr bool watched = false;
-#endif
 
 Cloth flat_cloth() { return test::cloth_of(make_grid(cells, cells), 1, 180, {0, cells}); }
 
@@ -63,13 +57,16 @@ State moved(SimulationSettings settings, int threads, int steps) {
 /// Compares steps by any number of threads, and requires that the last effect changes the motion.
 void expect_the_same_bits(SimulationSettings settings, int steps = 1) {
   settings.integrator.max_iterations = 2;
+#ifdef DRAPE_SANITIZED  // ten times slower, and looks for races rather than for other bits
+  EXPECT_TRUE(moved(settings, 2, steps).x.allFinite());
+  return;
+#endif
   const State alone = moved(settings, 1, steps);
-  for (const int threads : watched ? std::vector{2} : std::vector{2, 3}) {
+  for (const int threads : {2, 3}) {
     const State together = moved(settings, threads, steps);
     EXPECT_TRUE(same_bits(together.x, alone.x)) << threads << " threads";
     EXPECT_TRUE(same_bits(together.v, alone.v)) << threads << " threads";
   }
-  if (watched) return;
   Effects others;
   for (std::size_t i = 0; i + 1 < settings.effects.size(); ++i) others.add(settings.effects[i]);
   settings.effects = others;
@@ -84,19 +81,19 @@ TEST(ContactByThreads, OfAClothWithItselfHasTheSameBits) {
 
 // A hem that is too fast for a step to keep apart, and narrow, because such a step takes long.
 TEST(ContactByThreads, OfAHemThatComesDownFastHasTheSameBits) {
-  SimulationSettings settings = setup(folded_cloth(0.06, 0.7), Method::liu13, 0.01);
+  SimulationSettings settings = setup(folded_cloth(0.03, 0.7), Method::liu13, 0.01);
   settings.effects = {Gravity{}, SelfCollision{.thickness = 0.006}};
   expect_the_same_bits(settings);
 }
 
-/// Makes a body under most of the cloth that intersects it at its highest points in the first step.
+/// Makes a body under the cloth that intersects it around its highest points in the first step.
 Body hilly_body() {
   MeshMotion hills{.mesh = make_grid(9, 7)};
   for (Eigen::Index i = 0; i < hills.mesh.positions.rows(); ++i) {
     const double x = hills.mesh.positions(i, 0), y = hills.mesh.positions(i, 1);
-    hills.mesh.positions(i, 2) = -0.035 + 0.02 * std::cos(9 * x) * std::cos(7 * y);
+    hills.mesh.positions(i, 2) = -0.05 + 0.02 * std::cos(9 * x) * std::cos(7 * y);
   }
-  return {.mesh = std::make_shared<MeshMotion>(hills), .thickness = 0.02, .friction = 0.4};
+  return {.mesh = std::make_shared<MeshMotion>(hills), .thickness = 0.006, .friction = 0.4};
 }
 
 TEST(ContactByThreads, OfABodyHasTheSameBits) {
