@@ -33,11 +33,11 @@ RigidMotion::RigidMotion(std::shared_ptr<const SphereTrack> path, const Eigen::M
 
 Pose RigidMotion::at(double time) const {
   Pose pose{turn_, path_->at(time).center};
-  if (turns_) pose.turn = turn_about_axes(turns_->at(time)) * turn_;
+  if (turns_) pose.rotation = turn_about_axes(turns_->at(time)) * turn_;
   if (!orbit_) return pose;
   // As for the path, a whole number of periods returns exactly to the start.
   const double turns = std::remainder(time / orbit_->period, 1.0);
-  if (turns != 0) pose.turn = Eigen::AngleAxisd(2 * std::numbers::pi * turns, orbit_->axis) * pose.turn;
+  if (turns != 0) pose.rotation = Eigen::AngleAxisd(2 * std::numbers::pi * turns, orbit_->axis) * pose.rotation;
   return pose;
 }
 

@@ -193,7 +193,7 @@ Vertices MovingBody::positions(double time) const {
   Vertices x;
   shape_->place(time, x);
   const Pose pose = motion_.at(time);
-  return (x * pose.turn.transpose()).rowwise() + pose.place.transpose();
+  return (x * pose.rotation.transpose()).rowwise() + pose.position.transpose();
 }
 
 }  // namespace drape

@@ -424,10 +424,10 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     find_radii(point.x, updated);
     const PointStatus now = assess(problem, point);
     const bool by_gradient = accuracy.rule == StoppingRule::gradient;
-    const double usual = accuracy.usual || by_gradient ? std::max(share_of_change * longest(point.x - steady_),
-                                                                  share_of_way * longest(point.x - start_))
-                                                       : 0;
-    const double tolerance = tolerance_ = by_gradient ? usual : std::max(accuracy.tolerance, usual);
+    const double by_motion = accuracy.is_default || by_gradient ? std::max(share_of_change * longest(point.x - steady_),
+                                                                           share_of_way * longest(point.x - start_))
+                                                                : 0;
+    const double tolerance = tolerance_ = by_gradient ? by_motion : std::max(accuracy.tolerance, by_motion);
     const bool at_a_change = problem.exact() || accuracy.rule == StoppingRule::change;
     const bool balanced = by_gradient ? norm(system_.threads, gradient_) <= accuracy.tolerance
                                       : now.error <= tolerance || (settled && at_a_change);

@@ -48,7 +48,7 @@ class ContactSolver {
 
   /// Moves the point, given with g's value and gradient, to the minimum under the contacts. Gaps and slips of active
   /// contacts are within the tolerance. The default tolerance is a hundredth of the largest vertex displacement due to
-  /// forces in the step, if that exceeds the usual one. If features still collide at the end, the step is shortened
+  /// forces in the step, if that is larger. If features still collide at the end, the step is shortened
   /// along its straight path until none do. It then counts as not converged.
   StepReport solve(ContactProblem& problem, const Accuracy& accuracy, int most_iterations, Iterate& point);
 

@@ -79,8 +79,8 @@ std::array<int, 4> passed_vertices(const Entanglement::Passed& passed) {
 
 }  // namespace
 
-std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool held) {
-  const auto& [feature, from, to, before] = ways;
+std::optional<Touch> find_touch(const FeaturePaths& paths, double distance, bool held) {
+  const auto& [feature, from, to, before] = paths;
   if (!(before > 0)) return std::nullopt;
   if (before < least_gap * distance) {
     const Nearest near = nearest(feature, from);
@@ -263,7 +263,7 @@ void BodyContacts::begin(const Vertices& x, double start, double end) {
   start_ = body_->at(start);
   end_ = body_->at(end);
   if (!candidates_) prepare();
-  for (int i = 0; i < cloth_count_; ++i) x_[Index(i)] = start_.pose.in(x.row(i).transpose());
+  for (int i = 0; i < cloth_count_; ++i) x_[Index(i)] = start_.pose.to_body(x.row(i).transpose());
   if (body_->deforms()) copy_shape();
   if (entanglement_) find_astray();
 }
@@ -309,15 +309,15 @@ void BodyContacts::bring_out(int source, std::vector<ContactConstraint>& contact
     Point from = Point::Zero(), to = Point::Zero();
     for (Index c = 0; c < 3; ++c) {
       const Index corner = Index(cloth_count_) + Index(t[c]);
-      from += through.closest.weights[static_cast<Eigen::Index>(c)] * start_.pose.out(x_[corner]);
-      to += through.closest.weights[static_cast<Eigen::Index>(c)] * end_.pose.out(target_[corner]);
+      from += through.closest.weights[static_cast<Eigen::Index>(c)] * start_.pose.to_world(x_[corner]);
+      to += through.closest.weights[static_cast<Eigen::Index>(c)] * end_.pose.to_world(target_[corner]);
     }
     ContactConstraint contact;
     contact.key = {source, through_kind, {through.edge[0], through.edge[1], -1, -1}};
     contact.count = 2;
     contact.vertices = {through.edge[0], through.edge[1], 0, 0};
     contact.weights = {1 - through.share, through.share, 0, 0};
-    contact.normal = end_.pose.turn * through.closest.normal;
+    contact.normal = end_.pose.rotation * through.closest.normal;
     contact.offset = -to;
     contact.carried = from - to;
     contact.start = contact.gather(*world_) - from;
@@ -362,7 +362,8 @@ void BodyContacts::bring_back(int source, std::vector<ContactConstraint>& contac
 bool BodyContacts::is_clear(const Vertices& target) const {
   const auto turned = [](const Vertices& all, const Pose& pose) -> Box {
     const Point low = all.colwise().minCoeff().transpose(), high = all.colwise().maxCoeff().transpose();
-    const Point middle = pose.in((low + high) / 2), half = pose.turn.transpose().cwiseAbs() * ((high - low) / 2);
+    const Point middle = pose.to_body((low + high) / 2),
+                half = pose.rotation.transpose().cwiseAbs() * ((high - low) / 2);
     return {middle - half, middle + half};
   };
   const Box from = turned(*world_, start_.pose), to = turned(target, end_.pose);
@@ -375,7 +376,7 @@ void BodyContacts::find(const Vertices& target, int source, const std::vector<Co
   if (is_clear(target)) return;
   bool astray = !searched_;
   for (int i = 0; i < cloth_count_; ++i) {
-    target_[Index(i)] = end_.pose.in(target.row(i).transpose());
+    target_[Index(i)] = end_.pose.to_body(target.row(i).transpose());
     if (!astray) astray = (target_[Index(i)] - found_for_[Index(i)]).norm() > target_slack * terms_.distance;
   }
   if (astray) {
@@ -460,7 +461,7 @@ ContactConstraint BodyContacts::make(const std::array<int, 4>& vertices, const s
                                      const Point& normal) const {
   ContactConstraint contact;
   contact.count = 0;
-  contact.normal = end_.pose.turn * normal;
+  contact.normal = end_.pose.rotation * normal;
   contact.offset = contact.carried = contact.start = Eigen::Vector3d::Zero();
   for (Index i = 0; i < 4; ++i) {
     const int vertex = vertices[i];
@@ -470,7 +471,8 @@ ContactConstraint BodyContacts::make(const std::array<int, 4>& vertices, const s
       contact.start += weights[i] * world_->row(vertex).transpose();
       continue;
     }
-    const Eigen::Vector3d from = start_.pose.out(x_[Index(vertex)]), to = end_.pose.out(target_[Index(vertex)]);
+    const Eigen::Vector3d from = start_.pose.to_world(x_[Index(vertex)]),
+                          to = end_.pose.to_world(target_[Index(vertex)]);
     contact.offset += weights[i] * to;
     contact.carried += weights[i] * (to - from);
     contact.start += weights[i] * from;

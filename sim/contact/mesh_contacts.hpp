@@ -112,7 +112,7 @@ class SurfaceContacts final : public ContactSource {
 };
 
 /// Straight paths of two features in a step, and their distance at its start.
-struct FeatureWays {
+struct FeaturePaths {
   Feature feature;
   FourPoints from, to;
   double before;  ///< distance at the start [m]
@@ -127,7 +127,7 @@ struct Touch {
 
 /// Returns the contact of two features that end nearer than `distance` [m], collide on their path or are `held`.
 /// Returns nothing for other features.
-std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool held);
+std::optional<Touch> find_touch(const FeaturePaths& paths, double distance, bool held);
 
 /// Contacts of a cloth with itself, and of its pieces with each other: vertex-triangle and edge-edge pairs that share
 /// no vertex. Features that a seam joins keep at most their distance along the cloth, across the seam.

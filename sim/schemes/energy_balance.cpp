@@ -97,7 +97,7 @@ bool EnergyBalance::gains(const Iterate& point, bool tolerant) {
 bool EnergyBalance::gains_in_contact(const Iterate& point, double work, double tolerance) {
   if (!start_exact_) evaluate_start();
   const Accuracy& accuracy = minimiser_.accuracy();
-  const bool given = tolerance > 0 && !accuracy.usual && accuracy.rule == StoppingRule::error;
+  const bool given = tolerance > 0 && !accuracy.is_default && accuracy.rule == StoppingRule::error;
   const double solved = given ? tolerated(point) : 0.5 * tolerance * tolerance * objective_.free_inertia().sum();
   return gain(point) - work > rounding(point) + noticed * start_kinetic_ + solved;
 }

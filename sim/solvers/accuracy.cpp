@@ -71,14 +71,14 @@ int default_iterations(const IntegratorSettings& settings, int otherwise) {
 Accuracy::Accuracy(const IntegratorSettings& settings, const System& system, const Eigen::VectorXd& inertia)
     : rule(rule_of(settings)),
       tolerance(settings.tolerance.value_or(customary)),
-      usual(!settings.tolerance && rule == StoppingRule::error),
+      is_default(!settings.tolerance && rule == StoppingRule::error),
       order(order_of({settings.method, settings.scheme})),
       limit(system.solve_limit * system.cloth.masses[0] / inertia[0]) {
-  if (usual) tolerance = std::min(default_error(system, inertia), limit);
+  if (is_default) tolerance = std::min(default_error(system, inertia), limit);
 }
 
 double Accuracy::tolerance_at(const StepObjective& objective, const Vertices& x, double start_error) const {
-  if (!usual) return tolerance;
+  if (!is_default) return tolerance;
   const auto [total, by_forces] = objective.largest_displacement(x);
   const double changed = start_error < by_forces ? std::pow(start_error / by_forces, order) : 1;
   const double of_scheme = share_of_forces.at(static_cast<std::size_t>(order - 1)) * changed * by_forces;

@@ -132,7 +132,7 @@ StepBalance StepLedger::balance(const State& before, const State& after) const {
 
 Real StepLedger::tolerance(const State& before, const State& after) const {
   const Accuracy accuracy(settings_.integrator, system_, system_.inertia(settings_.step));
-  if (!accuracy.usual) return accuracy.tolerance;
+  if (!accuracy.is_default) return accuracy.tolerance;
   Real whole = 0, by_forces = 0;
   for (Eigen::Index i = 0; i < before.x.rows(); ++i) {
     const Eigen::Matrix<Real, 1, 3> way = after.x.row(i).cast<Real>() - before.x.row(i).cast<Real>();

@@ -3,7 +3,7 @@
 // Example:
 //   const drape::RigidMotion spinning(drape::straight_track({.center = {0, 0, 1}}, {0, 0, 0}),
 //                                     Eigen::Matrix3d::Identity(), drape::Orbit{.center = {0, 0, 1}, .period = 2});
-//   const Eigen::Vector3d corner = spinning.at(0.5).out({0.1, 0, 0});  // a quarter of a turn later: (0, 0.1, 1)
+//   const Eigen::Vector3d corner = spinning.at(0.5).to_world({0.1, 0, 0});  // a quarter of a turn later: (0, 0.1, 1)
 
 // Example:
 //   drape::MeshMotion lift{.mesh = drape::make_grid(1, 1)};
@@ -35,12 +35,13 @@ Eigen::Matrix3d turn_about_axes(const Eigen::Vector3d& degrees);
 
 /// Position and orientation of a body: its coordinates are rotated, then translated.
 struct Pose {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< rotation
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< position of the body's origin [m]
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< from the body's axes to the world's
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< of the body's origin [m]
 
-  /// Converts from the body's coordinates to the world's; in() converts back.
-  [[nodiscard]] Eigen::Vector3d out(const Eigen::Vector3d& p) const { return turn * p + place; }
-  [[nodiscard]] Eigen::Vector3d in(const Eigen::Vector3d& p) const { return turn.transpose() * (p - place); }
+  [[nodiscard]] Eigen::Vector3d to_world(const Eigen::Vector3d& p) const { return rotation * p + position; }
+  [[nodiscard]] Eigen::Vector3d to_body(const Eigen::Vector3d& p) const {
+    return rotation.transpose() * (p - position);
+  }
 };
 
 /// Rigid motion of a body as a function of time.

@@ -21,7 +21,7 @@ struct Accuracy {
   double tolerance;  ///< given tolerance [m], or [N] for StoppingRule::gradient
   /// True if neither rule nor tolerance is given; `tolerance` is then 0.3 % of the largest displacement by external
   /// forces in a step, at most 10⁻⁴ of the cloth's size: the least tolerance, used before a step is known.
-  bool usual;
+  bool is_default;
   int order;     ///< order p of the scheme
   double limit;  ///< largest default tolerance, from System::solve_limit [m]
 
