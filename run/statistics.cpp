@@ -203,7 +203,7 @@ nlohmann::ordered_json accuracy_json(const Statistics& statistics) {
             {"steps_not_accurate", statistics.not_converged()}};
   } else if (const auto& accuracy = exactness.accuracy()) {
     json = {{"stop", stopping_rule_name(accuracy->rule)}, {"tolerance", nullptr}};
-    if (!accuracy->usual) json["tolerance"] = accuracy->tolerance;
+    if (!accuracy->is_default) json["tolerance"] = accuracy->tolerance;
   } else {
     return nullptr;
   }
