@@ -171,7 +171,7 @@ TEST_F(ContactsOfNewtonsEquations, LeaveNoTraceOnceTheyAreForgotten) {
 // Contacts between vertices anywhere make a cloth's factor almost that of a full matrix. Then the cloth is solved
 // without them, and so it stays until they are forgotten.
 TEST(NewtonsFactor, LeavesOutContactsThatMakeItTooExpensive) {
-  const Cloth cloth = cloth_of(make_grid(90, 90), 1, 180, {0});
+  const Cloth cloth = cloth_of(make_grid(110, 110), 1, 180, {0});
   const System system{cloth, 0.02};
   const StepObjective objective{system, system.step};
   const Vertices b = forces(cloth, 2);
