@@ -155,9 +155,8 @@ void bend_at_rest(CurvatureElement& element, const PlacedTriangle& t, const Rest
   const Point curvature = bent * normal;
   element.rest = curvature.norm();
   if (element.rest > 0) {
-    const Point along = curvature / element.rest, across = along.unitOrthogonal();
-    Eigen::Matrix3d turn;
-    turn << along.transpose(), across.transpose(), along.cross(across).transpose();
+    const Eigen::Matrix3d turn =
+        Eigen::Quaterniond::FromTwoVectors(curvature, Point(Point::UnitX())).toRotationMatrix();
     element.weights = turn * element.weights;
   }
 }
