@@ -192,7 +192,7 @@ std::vector<Point> scattered_directions() {
   const Eigen::AngleAxisd turn(0.3713, Point(0.317, 0.593, 0.741).normalized());
   std::vector<Point> directions;
   for (int i = 0; i < 27; ++i) {
-    const Point way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const Point way = Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1).cast<double>();
     if (way.cwiseAbs().sum() == 1 || way.cwiseAbs().sum() == 3) directions.push_back(turn * way.normalized());
   }
   return directions;
