@@ -75,6 +75,9 @@ std::pair<std::vector<LoadedScene>, std::vector<std::shared_ptr<MotionReader>>> 
     for (const std::vector<std::string>& values : all) load(file, overrides_of(varied, values));
   }
   problems.throw_if_any(arguments.scenes);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (recorded[i]) require_known_values(scenes[i].source.file.string(), recorded[i]->header(), scenes.front());
+  }
   share_method(overrides, recorded, scenes);
   constexpr std::size_t most = 36;
   if (scenes.size() > most) {

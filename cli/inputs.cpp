@@ -209,6 +209,11 @@ void require_distinct_files(const std::vector<LoadedScene>& scenes, const std::v
   if (!problems.empty()) throw UsageError(problems);
 }
 
+bool is_motion_file(const std::string& file) {
+  const OutputFormat* format = find_format(file);
+  return format != nullptr && format->of_steps();
+}
+
 namespace {
 
 /// A motion and its unpacked scene.
@@ -271,20 +276,12 @@ LoadedScene scene_to_draw(const std::string& file, const MotionHeader& header, c
   return scene;
 }
 
-}  // namespace
-
-bool is_motion_file(const std::string& file) {
-  const OutputFormat* format = find_format(file);
-  return format != nullptr && format->of_steps();
-}
-
+/// Opens a motion for drawing; parameters as of open_scene().
 SceneToRun open_motion(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
   const auto motion = std::make_shared<OpenMotion>(file);
   return {scene_to_draw(file, motion->reader.header(), motion->folder, overrides, look),
           std::shared_ptr<MotionReader>(motion, &motion->reader)};
 }
-
-namespace {
 
 /// A temporary motion file, kept while it is read.
 struct ImportedFile {
@@ -357,7 +354,23 @@ SceneToRun open_scene_of_motion(const std::string& file, const SceneOfMotion& of
 
 }  // namespace
 
-SceneToRun open_scene(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
+void require_known_values(const std::string& file, const MotionHeader& header, const Scene& drawn) {
+  std::vector<std::string> unknown;
+  if (drawn.overlay.energies && !header.energies) unknown.emplace_back("[overlay] energies");
+  for (const TextTemplate::Piece& piece : drawn.caption.filled.pieces()) {
+    const bool known =
+        piece.text == "iterations" ? !header.imported : header.energies || !piece.text.starts_with("energy.");
+    if (piece.is_field && !known) unknown.push_back("{" + piece.text + "} in the caption");
+  }
+  if (unknown.empty()) return;
+  throw UsageError(fmt::format("{}: another program made this motion without these values: omit {}", shown(file),
+                               fmt::join(unknown, ", ")));
+}
+
+namespace {
+
+/// Opens as open_scene() does, without its check of what the film shows.
+SceneToRun open_any(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
   if (file.ends_with(".drape.partial")) {
     throw UsageError(fmt::format("{0} is not complete: drape simulate --resume {0} continues it", file));
   }
@@ -372,6 +385,14 @@ SceneToRun open_scene(const std::string& file, const std::vector<std::string>& o
   LoadedScene scene = make_scene(document, file, overrides);
   scene.source.inputs.emplace_back(file);
   return {std::move(scene), nullptr};
+}
+
+}  // namespace
+
+SceneToRun open_scene(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
+  SceneToRun opened = open_any(file, overrides, look);
+  if (opened.recorded) require_known_values(file, opened.recorded->header(), opened.scene);
+  return opened;
 }
 
 std::vector<SceneToRun> open_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides) {

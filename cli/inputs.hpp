@@ -51,16 +51,15 @@ struct SceneToRun {
   std::shared_ptr<MotionReader> recorded;  ///< also keeps the scene's files
 };
 
-/// Opens a motion for drawing.
-/// @param overrides overrides of its scene, or of `look`
-/// @param look      another scene that provides camera, look and film; empty: its own
-/// @throws UsageError if the motion is damaged, or the physics of the scene differs
-SceneToRun open_motion(const std::string& file, const std::vector<std::string>& overrides, const std::string& look);
-
 /// Opens a scene to simulate or a motion to draw, by the file's extension or a motion that the scene names.
-/// @param overrides, look as in open_motion()
-/// @throws UsageError also for an incomplete motion
+/// @param overrides overrides of its scene, or of `look`
+/// @param look      another scene that provides camera, look and film of a motion; empty: its own
+/// @throws UsageError if a motion is damaged or incomplete, its scene's physics differs, or as require_known_values()
 SceneToRun open_scene(const std::string& file, const std::vector<std::string>& overrides, const std::string& look = {});
+
+/// Checks that a film of a motion shows only what is known of it: other programs give no energies and no iterations.
+/// @throws UsageError
+void require_known_values(const std::string& file, const MotionHeader& header, const Scene& drawn);
 
 /// Opens all files as open_scene() does.
 /// @throws UsageError with all problems
@@ -82,7 +81,7 @@ struct ResumableRun {
 
 /// Finds the run that wrote an incomplete motion.
 /// @param file the motion to resume
-/// @param overrides, look as in open_motion(), for drawing
+/// @param overrides, look as in open_scene(), for drawing
 /// @returns nothing if the motion is complete
 /// @throws UsageError if the motion cannot be resumed
 std::optional<ResumableRun> find_resumable_run(const std::string& file, const std::vector<std::string>& overrides,

@@ -2,6 +2,8 @@
 #include <spdlog/spdlog.h>
 #include <algorithm>
 #include <memory>
+#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -78,12 +80,24 @@ void require_something_to_make(const RunArguments& arguments) {
                   arguments.resume));
 }
 
+/// Checks that no record is requested which a motion of another program does not hold.
+/// @throws UsageError
+void require_known_records(const std::string& file, const MotionHeader& header, const RecordPaths& records) {
+  for (const auto& [option, path, known] :
+       {std::tuple{"--stats", records.stats, !header.imported}, std::tuple{"--trace", records.trace, !header.imported},
+        std::tuple{"--energies", records.energies, header.energies}}) {
+    if (path.empty() || known) continue;
+    throw UsageError(fmt::format("{} {}: another program made {} without these values", option, path, file));
+  }
+}
+
 /// Makes the requested outputs of a complete motion.
 ExitCode make_of_motion(const std::string& file, const RunArguments& arguments, const CommonOptions& common) {
-  const SceneToRun found = open_motion(file, arguments.overrides, arguments.look);
+  const SceneToRun found = open_scene(file, arguments.overrides, arguments.look);
   RunOptions options = run_options(arguments, found.scene, common.verbose);
   require_distinct_files({found.scene}, {options});
   const RecordPaths records = std::exchange(options.records, {});
+  require_known_records(file, found.recorded->header(), records);
   limit_to_motion(file, found.recorded->last_step(), options);
   choose_frames(arguments.times, found.scene, options);
   options.recorded = found.recorded;

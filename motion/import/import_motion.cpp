@@ -203,6 +203,25 @@ std::string exact_obj(const Mesh& mesh) {
   return text;
 }
 
+/// A USD file of a moving sphere, from samples of its radius and its centre.
+constexpr const char* moving_sphere = R"(#usda 1.0
+(
+    metersPerUnit = 1
+    startTimeCode = 0
+    timeCodesPerSecond = 1
+    upAxis = "Z"
+)
+
+def Sphere "Sphere"
+{{
+    double radius.timeSamples = {{
+{}    }}
+    double3 xformOp:translate.timeSamples = {{
+{}    }}
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}}
+)";
+
 /// Writer of the scene that an imported motion needs for drawing.
 class ImportedScene {
  public:
@@ -271,22 +290,24 @@ class ImportedScene {
   }
 
  private:
+  /// Adds a sphere that rests, or whose centre and radius follow the frames of the cloth.
   void add_sphere(const std::vector<std::vector<Eigen::Vector4d>>& spheres, std::size_t k) {
     const Eigen::Vector4d& first = spheres.front()[k];
-    bool moves = false;
-    std::string keyframes;
+    text_ += "\n[[effects.sphere]]\nscale = 1\nstiffness = 0\n";
+    if (std::ranges::all_of(spheres, [&](const auto& moment) { return moment.at(k) == first; })) {
+      text_ += fmt::format("center = [{}, {}, {}]\nradius = {}\n", first[0], first[1], first[2], first[3]);
+      return;
+    }
+    std::string centers, radii;
     for (std::size_t i = 0; i < spheres.size(); ++i) {
       const Eigen::Vector4d& s = spheres[i].at(k);
-      moves = moves || s != first;
-      keyframes += fmt::format("{}{{ time = {}, center = [{}, {}, {}] }}", i > 0 ? ", " : "",
-                               static_cast<double>(grid_.steps[i]) * grid_.step, s[0], s[1], s[2]);
+      const double time = static_cast<double>(grid_.steps[i]) * grid_.step;
+      centers += fmt::format("        {}: ({}, {}, {}),\n", time, s[0], s[1], s[2]);
+      radii += fmt::format("        {}: {},\n", time, s[3]);
     }
-    text_ += fmt::format("\n[[effects.sphere]]\nradius = {}\nscale = 1\nstiffness = 0\n", first[3]);
-    if (moves) {
-      text_ += fmt::format("keyframes = [{}]\n", keyframes);
-    } else {
-      text_ += fmt::format("center = [{}, {}, {}]\n", first[0], first[1], first[2]);
-    }
+    const std::string name = fmt::format("sphere{}.usda", k + 1);
+    write_file_atomically(folder_ / name, fmt::format(moving_sphere, radii, centers));
+    text_ += fmt::format("track = \"{}\"\n", name);
   }
 
   const fs::path& folder_;

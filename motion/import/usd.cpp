@@ -24,7 +24,7 @@ ImportedShapes shapes_of(const UsdStage& stage, const char* type, const std::vec
   return shapes;
 }
 
-/// Returns the spheres of a stage. Each keeps its initial radius.
+/// Returns the spheres of a stage.
 ImportedShapes spheres_of(const UsdStage& stage, const std::vector<double>& times) {
   return shapes_of(stage, "Sphere", times, [](const UsdPrim&, const TransformTrack& track, double time) {
     const SphereShape sphere = track.sphere_at(time);

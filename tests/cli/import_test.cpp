@@ -112,6 +112,16 @@ TEST(Import, RefusesInOneMessageWithExitCode2) {
   expect_refused("import " + sequence + " --prim /a -o motion.drape", "only a USD file has prims");
   expect_refused("import " + sequence + " --up x -o motion.drape", "--up");
   expect_refused("simulate " + sequence, "is already a motion");
+  const std::string unknown = "made this motion without these values: omit ";
+  expect_refused("render " + sequence + " --set overlay.energies=true -o film.gif", unknown + "[overlay] energies\n");
+  expect_refused("render " + sequence + " --set 'caption.text=\"{time} {energy.total} {iterations}\"' -o film.gif",
+                 unknown + "{energy.total} in the caption, {iterations} in the caption\n");
+  folder.write("energies.toml", test::least_scene + "[overlay]\nenergies = true\n");
+  ASSERT_EQ(drape(folder, "import " + sequence + " -o i.drape").code, 0);
+  for (const std::string option : {"--stats", "--trace", "--energies"}) {
+    expect_refused("simulate --resume i.drape " + option + " record", "another program made i.drape without these");
+  }
+  expect_refused("compare energies.toml " + sequence + " -o film.gif", unknown + "[overlay] energies\n");
   folder.write("m/12.obj", falling(0));
   expect_refused("render " + sequence + " -o film.gif", "10.obj is missing before 12.obj");
 }

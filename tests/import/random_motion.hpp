@@ -34,7 +34,9 @@ struct RandomMotion {
       Frame frame{.index = k, .time = k * step, .positions = shaken(grid, random), .velocities = shaken(grid, random)};
       frame.energies = Energies{random.number(), random.between(-1, 1), random.number()};
       if (ball) {
-        frame.colliders.emplace_back(SphereShape{.center = {0, moves ? 0.1 * k : 0.5, 1}, .radius = 0.3, .reach = 0.3});
+        const double size = moves ? 0.3 + 0.05 * k : 0.3;
+        frame.colliders.emplace_back(
+            SphereShape{.center = {0, moves ? 0.1 * k : 0.5, 1}, .radius = size, .reach = size});
       }
       if (body) {
         MeshShape shape{.triangles = triangles, .positions = box.positions};
