@@ -257,13 +257,15 @@ LoadedScene with_look(LoadedScene scene, const LoadedScene& other) {
 }
 
 /// Returns the scene for drawing a motion: its own, or a replacement.
-LoadedScene scene_to_draw(const std::string& file, const MotionHeader& header, const MotionScene& folder,
+/// @param file the user's file; its folder has the textures that overrides name
+LoadedScene scene_to_draw(const std::string& file, const MotionHeader& header, const MotionScene& unpacked,
                           const std::vector<std::string>& overrides, const std::string& look) {
-  LoadedScene scene = folder.scene();
+  LoadedScene scene = unpacked.scene();
   if (header.imported && !look.empty()) {
     scene = with_look(std::move(scene), load_scene(look, overrides));
   } else if (!look.empty() || !overrides.empty()) {
-    LoadedScene other = look.empty() ? folder.load(overrides) : load_scene(look, overrides, cells_of(scene));
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    LoadedScene other = look.empty() ? unpacked.load(overrides, folder) : load_scene(look, overrides, cells_of(scene));
     keep_solver(scene, other);
     require_same_physics(file, scene, other, look.empty() ? "--set" : look);
     scene = std::move(other);
@@ -276,9 +278,11 @@ LoadedScene scene_to_draw(const std::string& file, const MotionHeader& header, c
   return scene;
 }
 
-/// Opens a motion for drawing; parameters as of open_scene().
-SceneToRun open_motion(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
-  const auto motion = std::make_shared<OpenMotion>(file);
+/// Opens a motion for drawing; other parameters as of open_scene().
+/// @param motion_file the file, or the motion that was made of it
+SceneToRun open_motion(const std::string& motion_file, const std::string& file,
+                       const std::vector<std::string>& overrides, const std::string& look) {
+  const auto motion = std::make_shared<OpenMotion>(motion_file);
   return {scene_to_draw(file, motion->reader.header(), motion->folder, overrides, look),
           std::shared_ptr<MotionReader>(motion, &motion->reader)};
 }
@@ -303,7 +307,7 @@ std::shared_ptr<ImportedFile> import_for_now(const ImportOptions& options, const
   } catch (const Interrupted&) {
     throw UsageError(shown(options.cloths.front()) + ": interrupted while it was read");
   }
-  imported->opened = open_motion(motion.string(), overrides, look);
+  imported->opened = open_motion(motion.string(), options.cloths.front(), overrides, look);
   return imported;
 }
 
@@ -374,7 +378,7 @@ SceneToRun open_any(const std::string& file, const std::vector<std::string>& ove
   if (file.ends_with(".drape.partial")) {
     throw UsageError(fmt::format("{0} is not complete: drape simulate --resume {0} continues it", file));
   }
-  if (is_motion_file(file)) return open_motion(file, overrides, look);
+  if (is_motion_file(file)) return open_motion(file, file, overrides, look);
   if (is_importable(file)) return open_import(file, overrides, look);
   const TomlValue document = read_document(file);  // once: the file may be a pipe
   if (const auto of_motion = load_scene_of_motion(document, file, overrides)) {

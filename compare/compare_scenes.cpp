@@ -94,16 +94,17 @@ std::vector<std::string> names_of(const std::vector<LoadedScene>& scenes) {
   return choices[0];
 }
 
-/// Returns "method = liu13"; the value alone for a method or scheme.
+/// Returns "step = 0.01"; the value alone for a method or scheme. Effects and each of several cloths keep their names:
+/// "sphere.radius = 0.3", "shirt.mass = 0.2".
 std::string difference_text(const KeyDifference& difference, std::size_t scene) {
   const std::string& value = difference.values[scene];
-  if (effect_of(difference.key) == "effects") {
-    return (value == absent ? "no " : "") + difference.key.substr(std::string_view("effects.").size());
-  }
+  const std::string within = difference.key.substr(difference.key.find('.') + 1);  // without its first table
+  if (effect_of(difference.key) == "effects") return (value == absent ? "no " : "") + within;
   const std::string name = difference.key.substr(difference.key.rfind('.') + 1);
   if (name == "method" || name == "scheme") return value;
-  const bool effect = difference.key.starts_with("effects.");
-  return (effect ? difference.key.substr(std::string_view("effects.").size()) : name) + " = " + value;
+  if (within.starts_with("transform.")) return name + " = " + value;  // no cloth can be called so
+  const bool numbered = within.find_first_of("0123456789") == 0;
+  return (numbered ? difference.key : within) + " = " + value;
 }
 
 /// Returns false if a motion is of another program: it has no keys to compare.
@@ -399,7 +400,9 @@ FilmInfo comparison_info(const std::vector<LoadedScene>& scenes, const CompareOp
   Pen pen;
   const FrameRange frames = frames_of(scenes, options);
   const Scene& first = scenes.front();
-  const Eigen::Vector2i size = layout_of(pen, scenes, options, options.difference || first.look.color_by).size();
+  const bool bar = options.difference || first.look.color_by;
+  const PanelLayout layout = layout_of(pen, scenes, options, bar);
+  const Eigen::Vector2i size = layout.size();
   FilmInfo film;
   film.scene = first.name;
   film.fps = first.video.fps;
@@ -409,6 +412,7 @@ FilmInfo comparison_info(const std::vector<LoadedScene>& scenes, const CompareOp
   film.width = size.x();
   film.height = size.y();
   film.largest_file = options.largest_file;
+  film.bands = bar ? color_bar_height(layout.text_size()) : 0;
   film.sheet = options.sheet;
   if (film.sheet) film.sheet->labelled = false;  // every picture has its time
   return film;

@@ -89,7 +89,9 @@ Image PanelColors::distance_bar(Pen& pen, int width, int size) const {
   }
   marks.front().label.insert(0, "≤ ");
   marks.back().label.insert(0, "≥ ");
-  return color_bar(pen, width, size, fmt::format("distance from the first, {} [{}]", first_, unit), marks);
+  std::string title = fmt::format("distance from the first, {} [{}]", first_, unit);
+  if (!has_room_for_title(pen, width, size, title)) title = fmt::format("distance from the first [{}]", unit);
+  return color_bar(pen, width, size, title, marks);
 }
 
 PanelLayout::PanelLayout(Pen& pen, const std::vector<std::string>& labels, const Eigen::Vector2i& panel, int columns,
@@ -126,7 +128,8 @@ Image PanelLayout::under_head(Pen& pen, const Image& panel, const std::vector<st
   Pen::fill(whole, {0, 0, whole.width, whole.height}, band_paper);
   int base = text_ + text_ / 4;
   for (const std::string& line : lines) {
-    pen.write(whole, text_ / 2, base, line, text_, band_ink);
+    const int size = fitting_size([&](int s) { return pen.width(line, s); }, text_, panel.width - text_);
+    pen.write(whole, text_ / 2, base, line, size, band_ink);
     base += Pen::line_height(text_);
   }
   append_below(whole, panel);

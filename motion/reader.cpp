@@ -218,8 +218,8 @@ MotionScene::MotionScene(const MotionReader& motion) : folder_("drape-scene") {
   }
 }
 
-LoadedScene MotionScene::load(const std::vector<std::string>& overrides) const {
-  return load_scene(file_, overrides, cells_of(scene_));
+LoadedScene MotionScene::load(const std::vector<std::string>& overrides, const fs::path& folder) const {
+  return load_scene(file_, overrides, cells_of(scene_), folder);
 }
 
 void require_same_physics(const std::string& motion, const LoadedScene& scene, const LoadedScene& other,

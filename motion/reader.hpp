@@ -82,7 +82,8 @@ class MotionScene {
   /// Returns the scene as it was when the motion was computed.
   [[nodiscard]] const LoadedScene& scene() const { return scene_; }
   /// Loads the scene with overrides, see load_scene().
-  [[nodiscard]] LoadedScene load(const std::vector<std::string>& overrides) const;
+  /// @param folder folder of textures that the overrides name, besides those in the motion
+  [[nodiscard]] LoadedScene load(const std::vector<std::string>& overrides, const std::filesystem::path& folder) const;
 
  private:
   TemporaryFolder folder_;

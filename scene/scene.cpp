@@ -273,16 +273,17 @@ std::vector<std::vector<std::string>> shared_method_overrides(const std::vector<
   return overrides;
 }
 
-LoadedScene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides, Cells cells) {
-  LoadedScene scene = make_scene(read_document(file), file, overrides, cells);
+LoadedScene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides, Cells cells,
+                       const std::optional<std::filesystem::path>& override_folder) {
+  LoadedScene scene = make_scene(read_document(file), file, overrides, cells, override_folder);
   scene.source.inputs.push_back(file);
   return scene;
 }
 
 LoadedScene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                       Cells cells) {
+                       Cells cells, const std::optional<std::filesystem::path>& override_folder) {
   std::erase_if(document.as<TomlTable>()->entries, [](const TomlEntry& entry) { return entry.name == "sweep"; });
-  Problems problems(file, overrides);
+  Problems problems(file, overrides, override_folder);
   apply_overrides(document, overrides, problems);
   const TomlValue* motion = find_path(document, "cloth.motion");
   if (motion != nullptr && motion->as<TomlTable>() == nullptr) {  // a table: the cloth with this name
@@ -400,11 +401,27 @@ namespace {
 
 using Given = std::function<bool(const char*)>;
 
+/// Multiplies the size of the picture, and with it its lengths in pixels, by a positive fraction.
+void scale_picture(Scene& scene, const Given& given, int numerator, int denominator) {
+  constexpr int smallest_text = 6, largest_text = 512;  // limits of [caption] size
+  constexpr double widest = 64;                         // limit of [look] line_width [pixels]
+  if (given("video.size")) return;
+  scene.video.size = scene.video.size * numerator / denominator;
+  std::optional<int>& text = scene.caption.size;
+  if (text && !given("caption.size")) {
+    text = std::clamp(*text * numerator / denominator, smallest_text, largest_text);
+  }
+  double& width = scene.look.line_width;
+  if (!given("look.line_width")) width = std::min(width * numerator / denominator, widest);
+}
+
 void make_draft(Scene& scene, const Given& given) {
   constexpr int smallest = 16;    // limit of [video] size
   constexpr double rate = 12.5;   // [1/s]
   constexpr double coarser = 10;  // factor of a tolerance
-  if (!given("video.size")) scene.video.size = (scene.video.size / 2).cwiseMax(smallest);
+  const int side = scene.video.size.minCoeff();
+  const bool half = side >= 2 * smallest;
+  scale_picture(scene, given, half ? 1 : smallest, half ? 2 : side);
   if (!given("video.fps")) scene.video.fps = std::min(scene.video.fps, rate);
   if (!given("look.ambient_occlusion")) scene.look.ambient_occlusion = false;
   IntegratorSettings& integrator = scene.simulation.integrator;
@@ -414,7 +431,9 @@ void make_draft(Scene& scene, const Given& given) {
 void make_print(Scene& scene, const Given& given) {
   constexpr int largest = 8192;  // limit of [video] size
   constexpr int samples = 4, anisotropy = 16;
-  if (!given("video.size")) scene.video.size = (scene.video.size * 2).cwiseMin(largest);
+  const int side = scene.video.size.maxCoeff();
+  const bool twice = 2 * side <= largest;
+  scale_picture(scene, given, twice ? 2 : largest, twice ? 1 : side);
   if (!given("look.samples")) scene.look.samples = samples;
   if (!given("look.anisotropy")) scene.look.anisotropy = anisotropy;
 }

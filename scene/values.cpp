@@ -155,8 +155,12 @@ std::optional<std::filesystem::path> read_file_name(const TomlValue& value, cons
   const std::optional<std::string> text = read_string(value, name, problems);
   if (!text || text->empty()) return text ? std::optional(std::filesystem::path{}) : std::nullopt;
 
-  const std::filesystem::path beside_scene = folder / *text;
+  std::filesystem::path beside_scene = folder / *text;
   if (is_file(beside_scene)) return beside_scene;
+  if (value.place.override_number > 0 && problems.override_folder()) {
+    beside_scene = *problems.override_folder() / *text;
+    if (is_file(beside_scene)) return beside_scene;
+  }
   if (std::error_code error; std::filesystem::is_directory(beside_scene, error)) {
     problems.add(value.place, fmt::format("{}: expected a file, but {} is a folder", name, shown(beside_scene)));
     return std::nullopt;

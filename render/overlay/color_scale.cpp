@@ -1,5 +1,6 @@
 #include "render/overlay/color_scale.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,8 +42,13 @@ std::vector<Rgb> ColorScale::colors(const Eigen::VectorXd& values) const {
 std::vector<Tick> ColorScale::marks(double factor) const {
   const double top = limit() * factor;
   std::vector<Tick> marks = ticks(0, top, 5);
+  const double spacing = marks[1].value - marks[0].value, rest = top - marks.back().value;
+  if (rest > 1e-6 * top) {
+    if (rest < spacing / 2) marks.pop_back();
+    marks.push_back({top, fmt::format("{:g}", top)});
+  }
   for (Tick& mark : marks) mark.value /= top;
-  if (marks.back().value > 1 - 1e-6) marks.back().label = "≥ " + marks.back().label;
+  marks.back().label = "≥ " + marks.back().label;
   return marks;
 }
 

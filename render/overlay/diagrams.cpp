@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <utility>
 
 #include "drape/render/overlay/caption.hpp"
@@ -57,23 +58,35 @@ std::vector<Tick> thinned(const std::vector<Tick>& marks, const LabelColumns& co
   return {marks[kept_mark]};
 }
 
-namespace {
-
-/// Returns the largest font size up to `size` at which a line fits into `room`, or else the least font size [pixels].
-/// @param width width of the line at a font size
 int fitting_size(const std::function<int(int)>& width, int size, int room) {
   while (size > least_text_size && width(size) > room) --size;
   return size;
 }
 
+namespace {
+
+/// Appends the last of all marks to the kept ones, in place of those that are too near, unless only one would be left.
+void keep_last(const Tick& last, const LabelColumns& columns, int gap, std::vector<Tick>& kept) {
+  if (kept.back().value == last.value) return;
+  const auto touches = [&](const Tick& mark) { return columns(last).first < columns(mark).second + gap; };
+  while (kept.size() > 1 && touches(kept.back())) kept.pop_back();
+  if (!touches(kept.back())) kept.push_back(last);
+}
+
+int bar_margin(int width, int size) { return std::min(2 * size, width / 6); }
+
 }  // namespace
 
 int color_bar_height(int size) { return 2 * Pen::line_height(size) + 2 * size; }
 
+bool has_room_for_title(Pen& pen, int width, int size, const std::string& title) {
+  return pen.width(title, least_text_size) <= width - bar_margin(width, size);
+}
+
 Image color_bar(Pen& pen, int width, int size, const std::string& title, const std::vector<Tick>& marks) {
   Image band(width, color_bar_height(size));
   Pen::fill(band, {0, 0, band.width, band.height}, band_paper);
-  const int margin = std::min(2 * size, width / 6), base = size + size / 4;
+  const int margin = bar_margin(width, size), base = size + size / 4;
   const int title_size = fitting_size([&](int s) { return pen.width(title, s); }, size, width - margin);
   pen.write(band, margin, base, title, title_size, band_ink);
   const PictureBox bar{margin, base + size / 2, width - 2 * margin, size};
@@ -89,7 +102,9 @@ Image color_bar(Pen& pen, int width, int size, const std::string& title, const s
     const int left = std::clamp(column(mark) - taken / 2, 0, std::max(0, width - taken));
     return std::pair{left, left + taken};
   };
-  for (const Tick& mark : thinned(marks, label, size / 2)) {
+  std::vector<Tick> kept = thinned(marks, label, size / 2);
+  if (!kept.empty()) keep_last(marks.back(), label, size / 2, kept);
+  for (const Tick& mark : kept) {
     Pen::fill(band, {column(mark), bar.bottom(), 1, std::max(2, size / 4)}, band_ink);
     pen.write(band, label(mark).first, bar.bottom() + size + size / 3, mark.label, size, band_ink);
   }
@@ -146,24 +161,37 @@ void CurveBand::draw_axes(Pen& pen, Image& band, const PictureBox& area) const {
 }
 
 void CurveBand::draw_legend(Pen& pen, Image& band, int left) const {
-  const int base = size_ + size_ / 3;
   const std::string unit = "[" + unit_ + "]";
   const auto entry_width = [&](const Curve& curve, int size) {
     return size + size / 3 + pen.width(curve.name, size) + size;
   };
+  std::vector<std::span<const Curve>> rows{curves_};
   const auto width = [&](int size) {
-    int sum = pen.width(unit, size) - size / 2;
-    for (const Curve& curve : curves_) sum += entry_width(curve, size);
-    return sum;
+    int most = 0;
+    for (const std::span<const Curve> row : rows) {
+      int sum = pen.width(unit, size) - size / 2;
+      for (const Curve& curve : row) sum += entry_width(curve, size);
+      most = std::max(most, sum);
+    }
+    return most;
   };
-  const int size = fitting_size(width, size_, width_ - left);
-  int at = left;
-  for (const Curve& curve : curves_) {
-    Pen::fill(band, {at, base - size / 2, size, std::max(2, size / 5)}, curve.color);
-    pen.write(band, at + size + size / 3, base, curve.name, size, band_ink);
-    at += entry_width(curve, size);
+  int size = fitting_size(width, size_, width_ - left), base = size_ + size_ / 3;
+  if (width(size) > width_ - left) {  // two rows of smaller letters have room above the curves
+    const std::size_t half = (curves_.size() + 1) / 2;
+    rows = {std::span(curves_).first(half), std::span(curves_).subspan(half)};
+    size = fitting_size(width, 3 * size_ / 4, width_ - left);
+    base = Pen::line_height(size);
   }
-  pen.write(band, at - size / 2, base, unit, size, band_ink);
+  for (const std::span<const Curve>& row : rows) {
+    int at = left;
+    for (const Curve& curve : row) {
+      Pen::fill(band, {at, base - size / 2, size, std::max(2, size / 5)}, curve.color);
+      pen.write(band, at + size + size / 3, base, curve.name, size, band_ink);
+      at += entry_width(curve, size);
+    }
+    if (&row == &rows.back()) pen.write(band, at - size / 2, base, unit, size, band_ink);
+    base += Pen::line_height(size);
+  }
 }
 
 Image CurveBand::draw(Pen& pen, double time) const {

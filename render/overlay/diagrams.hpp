@@ -31,6 +31,10 @@ using LabelColumns = std::function<std::pair<int, int>(const Tick& mark)>;
 /// @param marks in the order of their columns
 std::vector<Tick> thinned(const std::vector<Tick>& marks, const LabelColumns& columns, int gap);
 
+/// Returns the largest font size up to `size` at which a line fits into `room`, or else the least font size [pixels].
+/// @param width width of the line at a font size
+int fitting_size(const std::function<int(int)>& width, int size, int room);
+
 /// Colours of the bands below pictures: black on white, as in a figure.
 inline const Rgb band_paper{1, 1, 1}, band_ink{0.12, 0.12, 0.13};
 
@@ -38,7 +42,11 @@ inline const Rgb band_paper{1, 1, 1}, band_ink{0.12, 0.12, 0.13};
 /// @param size font size [pixels]
 int color_bar_height(int size);
 
-/// Draws the colours of viridis() from left to right, with a title above and labels below.
+/// Returns true if a colour bar's title fits above it, at least in the smallest letters.
+bool has_room_for_title(Pen& pen, int width, int size, const std::string& title);
+
+/// Draws the colours of viridis() from left to right, with a title above and labels below. The first and the last mark
+/// are kept where there is no room for all.
 /// @param marks labels; their values are positions in the bar, from 0 to 1
 Image color_bar(Pen& pen, int width, int size, const std::string& title, const std::vector<Tick>& marks);
 

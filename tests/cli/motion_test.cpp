@@ -285,6 +285,30 @@ TEST(MotionOnTheCommandLine, SaysWhatIsWrong) {
   EXPECT_EQ(content(folder.path("set.gif")), content(folder.path("direct.gif")));
 }
 
+TEST(MotionOnTheCommandLine, FindsTexturesOfOverridesBesideIt) {
+  const SceneFolder folder;
+  folder.write("s/a.toml", least_scene + "duration = 0.1\n[video]\nsize = [64, 48]\n[look]\ntexture = \"plaid.png\"\n");
+  folder.write("s/m.png", content(source / "textures/gingham.png"));
+  ASSERT_EQ(drape(folder, "simulate s/a.toml -o s/a.drape -o s/a.npz").code, 0);
+  const auto picture = [&](const std::string& options) {
+    const Finished finished = drape(folder, "render " + options + " -o x.png");
+    EXPECT_EQ(finished.code, 0) << finished.text;
+    return content(folder.path("x.png"));
+  };
+  const std::string own = picture("s/a.toml"), other = picture("s/a.toml --set look.texture=m.png");
+  ASSERT_TRUE(own != other);
+  EXPECT_TRUE(picture("s/a.drape") == own);
+  EXPECT_TRUE(picture("s/a.drape --set look.texture=m.png") == other);
+  EXPECT_TRUE(picture("s/a.drape --set cloth.texture=m.png") == other);
+  EXPECT_TRUE(picture("s/a.drape --set look.texture=file-1.png") == own) << "from the motion";
+  EXPECT_EQ(drape(folder, "render s/a.npz --set look.texture=m.png -o y.png").code, 0);
+  for (const std::string motion : {"s/a.drape", "s/a.npz"}) {
+    const Finished missing = drape(folder, "render " + motion + " --set look.texture=none.png -o x.png");
+    EXPECT_EQ(missing.code, 2) << missing.text;
+    EXPECT_NE(missing.text.find("no such file: neither s/none.png nor "), std::string::npos) << missing.text;
+  }
+}
+
 TEST(MotionOnTheCommandLine, WarnsOfGaps) {
   const SceneFolder folder;
   folder.write("scene.toml", swinging_scene);

@@ -227,6 +227,35 @@ TEST(CompareScenes, RefusesWhatCannotBeCompared) {
   EXPECT_NE(test::usage_error([&] { require_comparison(scenes, options); }).find("draws pictures"), std::string::npos);
 }
 
+TEST(CompareScenes, ASheetHasTheColourBarOnce) {
+  const test::SceneFolder folder;
+  const std::vector<LoadedScene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.stiffness=5"})};
+  CompareOptions options;
+  options.difference = true;
+  options.outputs = {folder.path("one.png")};
+  compare(scenes, options);
+  const int whole = test::read_picture(options.outputs[0]).rows;
+  options.sheet = SheetGrid{1, 3};
+  compare(scenes, options);
+  Pen pen;
+  const int bar = comparison_info(scenes, options).bands;
+  EXPECT_EQ(bar, PanelColors(scenes, {"a", "b"}, true, 1).bar(pen, 300, 11).height);
+  EXPECT_EQ(test::read_picture(options.outputs[0]).rows, 3 * (whole - bar) + 2 * 6 + bar);
+}
+
+TEST(CompareScenes, HasTheDistanceInsideANarrowPanel) {
+  Pen pen;
+  for (const int width : {100, 128, 160}) {
+    const PanelLayout layout(pen, {"a", "b"}, {width, 100}, 2, 1, 1, false);
+    const Image whole = layout.compose(pen, std::vector<Image>(2, Image(width, 100)),
+                                       {"", "at most 1.34 m from the first"}, "t = 0.00 s", std::nullopt);
+    for (int y = 0; y < 2 * Pen::line_height(11); ++y) {
+      EXPECT_GT(*whole.at(whole.width - 1, y), 160) << width << ' ' << y;
+      EXPECT_GT(*whole.at(whole.width - 2, y), 160) << width << ' ' << y;
+    }
+  }
+}
+
 TEST(CompareScenes, GivesTheSameBytesTwice) {
   const test::SceneFolder folder;
   const std::vector<LoadedScene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.stiffness=5"})};
@@ -251,6 +280,24 @@ TEST(CompareScenes, MakesAPageThatHoldsItsPictures) {
   for (std::size_t at = 0; (at = page.find("data:image/png", at)) != std::string::npos; ++at) ++pictures;
   EXPECT_EQ(pictures, 12U);  // 6 frames of 2 motions
   EXPECT_NE(page.find("cloth.stiffness"), std::string::npos);
+}
+
+TEST(CompareScenes, TellsMomentsApartThatAreMillisecondsApart) {
+  const test::SceneFolder folder;
+  const std::vector<std::string> slow{"time.duration=0.02", "time.step=0.002", "video.speed=0.05"};
+  const std::vector<LoadedScene> scenes{folder.load(swinging, slow), folder.load(swinging, slow)};
+  CompareOptions options;
+  options.outputs = {folder.path("page.html"), folder.path("{frame}.png")};
+  compare(scenes, options);
+  const std::string page = test::content(options.outputs[0]);
+  for (const char* time : {"t = 0.002 s", "t = 0.004 s", "0.002 s: ", "0.004 s: "}) {
+    EXPECT_NE(page.find(time), std::string::npos) << time;
+  }
+  const auto foot = [&](const char* file) -> cv::Mat {
+    const cv::Mat whole = test::read_picture(folder.path(file));
+    return whole.rowRange(whole.rows - 12, whole.rows);
+  };
+  EXPECT_GT(cv::norm(foot("01.png"), foot("02.png"), cv::NORM_INF), 0);
 }
 
 }  // namespace

@@ -53,6 +53,20 @@ TEST(Differences, AnEffectThatIsNotThereIsOneDifference) {
   EXPECT_EQ(labels(both, differences(both)), (Labels{"damping.factor = 0.2", "damping.factor = 0.1"}));
 }
 
+TEST(Differences, KeepTheNameOfEachOfSeveralCloths) {
+  const test::SceneFolder folder;
+  const std::string cloth = "[[cloth]]\nmesh = { grid = [2, 2] }\nstiffness = 10\nname = ";
+  const std::string both = cloth + "\"a\"\n" + cloth + "\"b\"\n[time]\nstep = 0.01\n";
+  const auto labels_of = [&](const std::string& text, const std::string& key) {
+    const std::vector<LoadedScene> all{folder.load(text, {key + "=1"}), folder.load(text, {key + "=2"})};
+    return labels(all, differences(all));
+  };
+  EXPECT_EQ(labels_of(both, "cloth.b.mass"), (Labels{"b.mass = 1", "b.mass = 2"}));
+  EXPECT_EQ(labels_of(both, "cloth.a.transform.scale"), (Labels{"a.transform.scale = 1", "a.transform.scale = 2"}));
+  EXPECT_EQ(labels_of(least_scene, "cloth.mass"), (Labels{"mass = 1", "mass = 2"}));
+  EXPECT_EQ(labels_of(least_scene, "cloth.transform.scale"), (Labels{"scale = 1", "scale = 2"}));
+}
+
 TEST(Differences, WhatThingsLookLikeNeedsNoLabel) {
   const test::SceneFolder folder;
   const auto all = scenes(folder, {{}, {"look.mesh_lines=true"}});

@@ -125,6 +125,15 @@ int last_letter(const Image& band, int rows) {
   return last;
 }
 
+/// Returns the last column with a letter in the last rows of a band.
+int last_letter_at_foot(const Image& band, int rows) {
+  int last = -1;
+  for (int y = band.height - rows; y < band.height; ++y) {
+    for (int x = last + 1; x < band.width; ++x) last = *band.at(x, y) < 160 ? x : last;
+  }
+  return last;
+}
+
 TEST(CurveBand, HasItsLegendInsideTheFilm) {
   Pen pen;
   const std::vector<double> values{0, 1};
@@ -136,6 +145,11 @@ TEST(CurveBand, HasItsLegendInsideTheFilm) {
     EXPECT_LT(last, width - 1);
     EXPECT_GT(last, 0.85 * width) << "no smaller than needed";
   }
+  for (const int width : {110, 130, 150}) {
+    std::vector<Curve> curves;
+    for (const char* name : {"total", "kinetic", "gravity", "elastic"}) curves.push_back({name, {0, 0, 0}, values});
+    EXPECT_LT(last_letter(CurveBand(width, 11, "J", {0, 1}, curves).draw(pen, 0), 24), width - 1) << "in two rows";
+  }
 }
 
 TEST(ColorBar, HasItsTitleInsideThePicture) {
@@ -144,6 +158,38 @@ TEST(ColorBar, HasItsTitleInsideThePicture) {
   for (const int width : {260, 300, 340, 420}) {
     EXPECT_LT(last_letter(color_bar(pen, width, 14, title, {}), 14 + 14 / 2), width - 1) << width;
   }
+}
+
+TEST(ColorBar, SaysIfItsTitleHasNoRoom) {
+  Pen pen;
+  const std::string title = "distance from the first, a scene with quite a long name [mm]";
+  EXPECT_TRUE(has_room_for_title(pen, 260, 14, title));
+  EXPECT_FALSE(has_room_for_title(pen, 160, 14, title));
+}
+
+TEST(ColorBar, LabelsItsLastColourWhereOthersHaveNoRoom) {
+  Pen pen;
+  const int size = 11;
+  for (const int width : {90, 120, 160, 200, 300}) {
+    const Image bar = color_bar(pen, width, size, "speed [m/s]", ColorScale(5).marks(1));
+    const int end = width - std::min(2 * size, width / 6);  // of the colours
+    const std::vector<int> gaps = gaps_at_foot(bar, size + size / 2);
+    EXPECT_GE(std::ranges::count_if(gaps, [&](int gap) { return gap >= size / 2; }), 1) << width;
+    EXPECT_GE(last_letter_at_foot(bar, size + size / 2), end) << width;
+  }
+}
+
+TEST(ColorScale, MarksItsLimit) {
+  const auto labels = [](double limit, double factor) {
+    std::string all;
+    for (const Tick& mark : ColorScale(limit).marks(factor)) all += mark.label + ' ';
+    return all;
+  };
+  EXPECT_EQ(labels(2, 1), "0 0.2 0.4 0.6 0.8 1 1.2 1.4 1.6 1.8 ≥ 2 ");
+  EXPECT_EQ(labels(0.7, 1), "0 0.1 0.2 0.3 0.4 0.5 0.6 ≥ 0.7 ");
+  EXPECT_EQ(labels(0.73, 1), "0 0.1 0.2 0.3 0.4 0.5 0.6 ≥ 0.73 ");
+  EXPECT_EQ(labels(0.78, 1), "0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 ≥ 0.78 ");
+  EXPECT_EQ(labels(0.07, 100), "0 1 2 3 4 5 6 ≥ 7 ");
 }
 
 TEST(ColorBar, HasTheColourThatAMarkStandsFor) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -80,10 +81,15 @@ class SceneConflict : public UsageError {
 /// Collector of a scene's problems, so that users see all of them at once.
 class Problems {
  public:
-  /// @param file      scene file name for messages
-  /// @param overrides "key.path=value", in order
-  Problems(std::filesystem::path file, std::vector<std::string> overrides)
-      : file_(std::move(file)), overrides_(std::move(overrides)) {}
+  /// @param file            scene file name for messages
+  /// @param overrides       "key.path=value", in order
+  /// @param override_folder see override_folder()
+  Problems(std::filesystem::path file, std::vector<std::string> overrides,
+           std::optional<std::filesystem::path> override_folder = {})
+      : file_(std::move(file)), overrides_(std::move(overrides)), override_folder_(std::move(override_folder)) {}
+
+  /// Returns a folder besides the scene's for files that overrides name, if there is one.
+  [[nodiscard]] const std::optional<std::filesystem::path>& override_folder() const { return override_folder_; }
 
   /// @param message a sentence without a full stop; further lines are shown below it
   void add(const Place& place, std::string message) { found_.push_back({place, std::move(message)}); }
@@ -109,6 +115,7 @@ class Problems {
   };
   std::filesystem::path file_;
   std::vector<std::string> overrides_;
+  std::optional<std::filesystem::path> override_folder_;
   std::vector<Problem> found_;
 };
 

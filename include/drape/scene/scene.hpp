@@ -126,10 +126,12 @@ enum class Cells {
 /// Reads a scene file.
 /// @param overrides assignments "key.path=value", applied in order and checked like the file. A value is TOML or a bare
 ///                  word, read as a string.
+/// @param override_folder a folder besides the scene's for textures that the overrides name
 /// @throws UsageError whose message lists every problem of the file and the overrides, a line each:
 ///         "file:line:col: message", or "--set key.path=value: message"
 LoadedScene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
-                       Cells cells = Cells::of_quality);
+                       Cells cells = Cells::of_quality,
+                       const std::optional<std::filesystem::path>& override_folder = {});
 
 /// Returns overrides for each scene that give all scenes with an automatic method the same method, see shared_method().
 /// All are empty if the methods already agree or no method suits all.
@@ -141,7 +143,8 @@ std::vector<std::vector<std::string>> shared_method_overrides(const std::vector<
 /// @param file     file name for messages; files named in the scene are looked up in its folder
 /// @throws UsageError as load_scene()
 LoadedScene make_scene(TomlValue document, const std::filesystem::path& file,
-                       const std::vector<std::string>& overrides = {}, Cells cells = Cells::of_quality);
+                       const std::vector<std::string>& overrides = {}, Cells cells = Cells::of_quality,
+                       const std::optional<std::filesystem::path>& override_folder = {});
 
 /// Returns the portable form of a scene.
 /// @param document document after overrides
@@ -208,10 +211,11 @@ inline Cells cells_of(const Scene& scene) {
 }
 
 /// Scales the settings that trade time for detail according to the scene's quality.
-///   draft  half the size, at most 12.5 frames per second, without ambient occlusion, ten times the given
-///          tolerance
+///   draft  half the size, at least 16 pixels, at most 12.5 frames per second, without ambient occlusion, ten times the
+///          given tolerance
 ///   print  twice the size, at most 8192 pixels, four samples, textures filtered 16-fold
-/// A tolerance derived from an accuracy stays. Values from the command line stay.
+/// Captions and mesh lines are scaled with the picture, by one factor. A tolerance derived from an accuracy stays.
+/// Values from the command line stay.
 /// @param given returns true if the command line gives a key, "video.size"
 void apply_quality(Scene& scene, const std::function<bool(const char*)>& given);
 
