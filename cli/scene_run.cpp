@@ -296,7 +296,7 @@ ExitCode SceneRun::end() {
   work_->watch_to_its_end(quiet_);
   if (!result_.renderer.empty()) spdlog::debug("drawn by {}", result_.renderer);
   if (common_.verbose) spdlog::debug(effect_shares(result_.statistics));
-  if (!common_.quiet && (result_.statistics.steps() > 0 || options_.recorded)) {
+  if (!common_.quiet && (result_.statistics.steps() > 0 || options_.recorded || !result_.outputs.empty())) {
     print_wrapped(stderr, summarize(result_) + "\n");
     for (const std::string& line : separation_.lines()) print_wrapped(stderr, line + "\n");
   }

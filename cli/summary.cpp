@@ -246,9 +246,11 @@ std::string of_steps(const Statistics& s) {
   if (const auto& residual_force = s.exactness().residual_force()) {
     text += fmt::format(", at rest with {}", out_of_balance(*residual_force));
   }
-  text += fmt::format(", {} per step (median {})\n", duration(1e-6 * s.mean_microseconds()),
-                      duration(1e-6 * s.median_microseconds()));
-  return text + fmt::format("simulate {}", duration(s.total_seconds()));
+  if (s.steps() > 0) {
+    text += fmt::format(", {} per step (median {})", duration(1e-6 * s.mean_microseconds()),
+                        duration(1e-6 * s.median_microseconds()));
+  }
+  return text + fmt::format("\nsimulate {}", duration(s.total_seconds()));
 }
 
 }  // namespace

@@ -298,7 +298,8 @@ class Comparison {
       for (const Image& panel : panels) moments_.back().pictures.push_back(encode_png(panel));
     }
     add_to_players(moment);
-    outputs_.add({*moment.front(), layout_.compose(pen_, panels, extra, fmt::format("t = {:.2f} s", time), bar_)});
+    const std::string when = "t = " + readable_time(time, first_.video.speed / first_.video.fps);
+    outputs_.add({*moment.front(), layout_.compose(pen_, panels, extra, when, bar_)});
   }
 
   /// Prepares the page's players, unless the motions are too large for a browser.

@@ -15,12 +15,17 @@ namespace {
 
 using html::Markup;
 
+/// Formats the time of a frame [s].
+std::string time_of(const CompareResult& result, double time) {
+  return readable_time(time, result.times.size() < 2 ? 1 : result.times[1] - result.times[0]);
+}
+
 Markup films(const CompareResult& result, const std::vector<PageMoment>& moments, std::size_t poster,
              const std::string& bar) {
   std::vector<std::string> names;
   for (const ComparedMotion& motion : result.motions) names.push_back(motion.label);
   std::vector<html::FilmMoment> shown;
-  for (const PageMoment& moment : moments) shown.push_back({fmt::format("t = {:.2f} s", moment.time), moment.pictures});
+  for (const PageMoment& moment : moments) shown.push_back({"t = " + time_of(result, moment.time), moment.pictures});
   Markup content = html::film("film", names, shown, poster);
   if (!bar.empty()) content += html::figure(html::picture("image/png", bar, "What the colours mean"), {});
   return html::section(2, "motions", "The motions side by side", content);
@@ -105,7 +110,9 @@ NamedChart lines(const CompareResult& result, const std::string& name, const std
     html::ChartSeries series = series_of(result, i);
     for (std::size_t k = 0; k < result.times.size(); k += every) {
       const std::optional<double> y = of(result.motions[i], k);
-      if (y) series.points.push_back({result.times[k], *y, fmt::format("{:.2f} s: {:.4g}", result.times[k], *y), {}});
+      if (!y) continue;
+      const double time = result.times[k];
+      series.points.push_back({time, *y, fmt::format("{}: {:.4g}", time_of(result, time), *y), {}});
     }
     if (!series.points.empty()) chart.series.push_back(std::move(series));
   }

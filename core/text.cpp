@@ -114,6 +114,12 @@ std::string readable_length(double metres) {
   return fmt::format("{:.3g} nm", 1e9 * metres);
 }
 
+std::string readable_time(double seconds, double spacing) {
+  constexpr double rounding = 1e-9;  // of the logarithm of a power of ten
+  const double digits = std::clamp(std::ceil(-std::log10(spacing) - rounding), 2.0, 15.0);
+  return fmt::format("{:.{}f} s", seconds, static_cast<int>(digits));
+}
+
 namespace {
 
 constexpr std::size_t least_room = 20;      // columns that must remain after the indent

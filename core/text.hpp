@@ -27,6 +27,10 @@ std::string shown(const std::filesystem::path& file);
 /// Formats a length [m] with three digits: "1.23 mm", "0.5 mm", "12 µm", "340 nm"; millimetres from 0.1 mm on.
 std::string readable_length(double metres);
 
+/// Formats the time of a frame with two decimals, or as many as tell neighbouring frames apart: "0.284 s".
+/// @param spacing time from a frame to the next [s]
+std::string readable_time(double seconds, double spacing);
+
 /// A width that no line reaches.
 inline constexpr std::size_t unlimited_width = static_cast<std::size_t>(-1);
 

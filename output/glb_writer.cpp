@@ -11,7 +11,9 @@
 #include "core/files.hpp"
 #include "drape/core/error.hpp"
 #include "drape/render/image.hpp"
+#include "output/codecs/codecs.hpp"
 #include "output/mesh_writers.hpp"
+#include "output/png_encoder.hpp"
 
 namespace drape {
 namespace {
@@ -169,13 +171,13 @@ std::string material(const std::string& name, const Rgb& color, const std::strin
       name, linear[0], linear[1], linear[2], more);
 }
 
-/// Returns the bytes of a texture that glTF supports, PNG or JPEG; empty: none.
+/// Returns the bytes of a texture as glTF supports them: a PNG or JPEG file as it is, others as PNG; empty: none.
 std::string texture_bytes(const std::filesystem::path& texture, std::string& type) {
   if (texture.empty()) return {};
   std::string bytes = read_file(texture, most_texture_bytes);
-  type = bytes.starts_with("\x89PNG") ? "image/png" : bytes.starts_with("\xFF\xD8") ? "image/jpeg" : "";
-  if (type.empty()) bytes.clear();
-  return bytes;
+  const bool jpeg = is_upright_rgb_jpeg(bytes);
+  type = jpeg ? "image/jpeg" : "image/png";
+  return jpeg || is_png(bytes) ? bytes : png_of_texture(texture, largest_texture);
 }
 
 /// Pads a text to a multiple of 4 bytes.
@@ -235,7 +237,8 @@ void GlbWriter::add_first(const Frame& frame) {
       Ball ball{.first = *sphere,
                 .surface = std::make_unique<Surface>(surface_of({around_origin}, {})),
                 .mesh = {},
-                .places = {}};
+                .places = {},
+                .scales = {}};
       ball.mesh = std::make_unique<GltfMorphedMesh>(file_, ball.surface->triangles, no_uvs,
                                                     ball.surface->positions.rows(), true);
       ball.mesh->add(ball.surface->positions);
@@ -269,7 +272,9 @@ void GlbWriter::add(const Frame& frame) {
     if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
       Ball& of = balls_.at(ball++);
       for (const double x : sphere->center) of.places.push_back(static_cast<float>(x));
+      of.scales.insert(of.scales.end(), 3, static_cast<float>(sphere->radius / of.first.radius));
       of.moves = of.moves || sphere->center != of.first.center;
+      of.grows = of.grows || sphere->radius != of.first.radius;
     } else if (const auto* body = std::get_if<MeshShape>(&collider)) {
       solids_.at(solid++).mesh->add(body->positions);
     } else {
@@ -314,7 +319,9 @@ std::vector<std::string> GlbWriter::sheet_materials(GltfParts& parts, std::vecto
 
 std::string GlbWriter::animation(GltfParts& parts, std::vector<std::string>& tail,
                                  const std::vector<std::size_t>& morphing) const {
-  if (morphing.empty() && std::ranges::none_of(balls_, &Ball::moves)) return "";
+  if (morphing.empty() && std::ranges::none_of(balls_, [](const Ball& ball) { return ball.moves || ball.grows; })) {
+    return "";
+  }
   std::vector<std::string> channels, samplers;
   const std::size_t frames = times_.size();
   const auto add_floats = [&](const std::vector<float>& values, std::size_t count, const std::string& more) {
@@ -336,9 +343,11 @@ std::string GlbWriter::animation(GltfParts& parts, std::vector<std::string>& tai
     for (const std::size_t node : morphing) add_channel(node, "weights", shared);
   }
   for (std::size_t k = 0; k < balls_.size(); ++k) {
-    if (!balls_[k].moves) continue;
-    const int output = add_floats(balls_[k].places, frames, "\"type\": \"VEC3\"");
-    add_channel(1 + sheets_.size() + k, "translation", output);
+    const auto add_vectors = [&](const char* path, const std::vector<float>& values) {
+      add_channel(1 + sheets_.size() + k, path, add_floats(values, frames, "\"type\": \"VEC3\""));
+    };
+    if (balls_[k].moves) add_vectors("translation", balls_[k].places);
+    if (balls_[k].grows) add_vectors("scale", balls_[k].scales);
   }
   return fmt::format(", \"animations\": [{{\"name\": \"motion\", \"channels\": [{}], \"samplers\": [{}]}}]",
                      fmt::join(channels, ", "), fmt::join(samplers, ", "));

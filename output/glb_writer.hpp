@@ -80,13 +80,13 @@ class GlbWriter final : public MotionWriter {
   std::vector<OutputFile> finish(Ending ending) override;
 
  private:
-  /// A sphere: a mesh around the origin, placed by its node.
+  /// A sphere: a mesh around the origin, placed and scaled by its node.
   struct Ball {
     SphereShape first;
     std::unique_ptr<Surface> surface;
     std::unique_ptr<GltfMorphedMesh> mesh;
-    std::vector<float> places;
-    bool moves = false;
+    std::vector<float> places, scales;
+    bool moves = false, grows = false;
   };
   /// A body, or a ground, which is static.
   struct Solid {

@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "drape/core/error.hpp"
-#include "drape/render/image.hpp"
 #include "output/mesh_writers.hpp"
 #include "output/png_encoder.hpp"
 #include "render/overlay/color_scale.hpp"
@@ -130,28 +129,6 @@ void append_triangles(const std::vector<Triangle>& triangles, std::string& bytes
 /// Returns "[0.85, 0.65, 0.13]".
 std::string list(const Rgb& color) { return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", color.r, color.g, color.b); }
 
-/// Returns a texture as a PNG file of at most most_texture_pixels a side.
-/// @throws OutputError if it cannot be read
-std::string small_texture(const std::filesystem::path& file) {
-  try {
-    const std::vector<TextureLevel> levels = load_texture_image(file);
-    const auto level = std::ranges::find_if(
-        levels, [](const TextureLevel& one) { return std::max(one.width, one.height) <= most_texture_pixels; });
-    Image image(level->width, level->height);
-    for (int y = 0; y < image.height; ++y) {
-      for (int i = 0; i < 3 * image.width; ++i) {
-        const std::size_t at =
-            static_cast<std::size_t>(image.height - 1 - y) * 3 * static_cast<std::size_t>(image.width);
-        const double light = level->pixels[at + static_cast<std::size_t>(i)] / 65535.0;
-        image.at(0, y)[i] = static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(light)));
-      }
-    }
-    return encode_png(image);
-  } catch (const UsageError& error) {
-    throw OutputError(error.what());
-  }
-}
-
 void append_floats(std::initializer_list<double> numbers, std::string& bytes) {
   for (const double number : numbers) append_number<float>(bytes, static_cast<float>(number));
 }
@@ -240,7 +217,7 @@ void MotionPacker::add_first(const Frame& frame) {
 void MotionPacker::add_texture(std::string& bytes) {
   const auto& uvs = film_.texture_coordinates();
   if (film_.look == nullptr || film_.look->texture.empty() || uvs.empty()) return;
-  texture_ = small_texture(film_.look->texture);
+  texture_ = png_of_texture(film_.look->texture, most_texture_pixels);
   std::array<std::int64_t, 2> before{};
   for (const std::array<float, 2>& uv : uvs) {
     for (std::size_t c = 0; c < 2; ++c) {

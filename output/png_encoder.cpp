@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/files.hpp"
+#include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "drape/render/image.hpp"
 #include "output/codecs/codecs.hpp"
@@ -30,6 +31,26 @@ std::string encode_png(const Image& image) {
     throw OutputError(fmt::format("cannot encode a PNG: {}", error.what()));
   }
   return {bytes.begin(), bytes.end()};
+}
+
+std::string png_of_texture(const std::filesystem::path& file, int most) {
+  try {
+    const std::vector<TextureLevel> levels = load_texture_image(file);
+    const auto level =
+        std::ranges::find_if(levels, [&](const TextureLevel& one) { return std::max(one.width, one.height) <= most; });
+    Image image(level->width, level->height);
+    for (int y = 0; y < image.height; ++y) {
+      for (int i = 0; i < 3 * image.width; ++i) {
+        const std::size_t at =
+            static_cast<std::size_t>(image.height - 1 - y) * 3 * static_cast<std::size_t>(image.width);
+        const double light = level->pixels[at + static_cast<std::size_t>(i)] / 65535.0;
+        image.at(0, y)[i] = static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(light)));
+      }
+    }
+    return encode_png(image);
+  } catch (const UsageError& error) {
+    throw OutputError(error.what());
+  }
 }
 
 OutputFormat png_format() {
@@ -87,7 +108,7 @@ Image ContactSheet::labelled(Image picture, double time) {
   const int size = std::clamp(picture.height / 24, 12, 96), margin = size / 2;
   Image label(picture.width, Pen::line_height(size) + margin);
   std::fill(label.pixels.begin(), label.pixels.end(), paper);
-  pen_.write(label, margin, size + margin / 2, fmt::format("t = {:.2f} s", time), size, band_ink);
+  pen_.write(label, margin, size + margin / 2, "t = " + readable_time(time, seconds_per_frame_), size, band_ink);
   picture.height += label.height;
   picture.pixels.insert(picture.pixels.end(), label.pixels.begin(), label.pixels.end());
   return picture;

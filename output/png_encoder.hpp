@@ -16,6 +16,10 @@ namespace drape {
 /// @throws OutputError
 std::string encode_png(const Image& image);
 
+/// Returns a texture as a PNG file: the largest level of its mipmap with at most `most` pixels a side.
+/// @throws OutputError if it cannot be read
+std::string png_of_texture(const std::filesystem::path& file, int most);
+
 OutputFormat png_format();
 
 /// Returns true if an item is among `shown` evenly spread ones of `count`, with the first and the last.

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -115,13 +116,27 @@ std::string list(Count count, Text text_of) {
   return text + "]";
 }
 
-/// Returns a cloth's name as USD allows it: "table_cloth" for "table-cloth".
-std::string identifier(std::string name) {
-  std::ranges::replace(name, '-', '_');
-  return name;
+/// Returns the cloths' names as USD allows them: "table_cloth" for "table-cloth", or "table_cloth_2" if another has it.
+std::vector<std::string> identifiers(const std::vector<ClothPiece>& pieces) {
+  const auto allowed = [](const std::string& name) { return name.find('-') == std::string::npos; };
+  std::set<std::string> taken;
+  for (const ClothPiece& piece : pieces) {
+    if (allowed(piece.name)) taken.insert(piece.name);
+  }
+  std::vector<std::string> names;
+  for (const ClothPiece& piece : pieces) {
+    std::string name = piece.name;
+    if (!allowed(name)) {
+      std::ranges::replace(name, '-', '_');
+      const std::string first = name;
+      for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}_{}", first, k);
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
 }
 
-std::string material_of(const ClothPiece& piece) { return "/Scene/Material_" + identifier(piece.name); }
+std::string material_of(const std::string& cloth) { return "/Scene/Material_" + cloth; }
 
 }  // namespace
 
@@ -267,14 +282,16 @@ void UsdWriter::write_cloth() {
     file_.write(indent + "rel material:binding = </Scene/ClothMaterial>\n    }\n\n");
     return;
   }
-  for (const ClothPiece& piece : film_.cloth->pieces) {
+  const std::vector<std::string> names = identifiers(film_.cloth->pieces);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const ClothPiece& piece = film_.cloth->pieces[k];
     const std::string faces =
         list(piece.triangle_count, [&](int t) { return fmt::format("{}", piece.first_triangle + t); });
     file_.write(
         fmt::format("\n{0}def GeomSubset \"{1}\" (\n{0}    prepend apiSchemas = [\"MaterialBindingAPI\"]\n{0})\n{0}{{\n"
                     "{0}    uniform token elementType = \"face\"\n{0}    uniform token familyName = \"materialBind\"\n"
                     "{0}    int[] indices = {2}\n{0}    rel material:binding = <{3}>\n{0}}}\n",
-                    indent, identifier(piece.name), faces, material_of(piece)));
+                    indent, names[k], faces, material_of(names[k])));
   }
   file_.write("    }\n\n");
 }
@@ -293,10 +310,11 @@ void UsdWriter::write_materials() {
   Look look = film_.look != nullptr ? *film_.look : Look{};
   look.texture = lasting(look.texture);
   if (!several_looks()) return file_.write(usd_material("/Scene/ClothMaterial", look, file_.file()));
-  for (std::size_t k = 0; k < look.cloths.size(); ++k) {
+  const std::vector<std::string> names = identifiers(film_.cloth->pieces);
+  for (std::size_t k = 0; k < names.size(); ++k) {
     look.color = look.cloths[k].color;
     look.texture = lasting(look.cloths[k].texture);
-    file_.write(usd_material(material_of(film_.cloth->pieces[k]), look, file_.file()));
+    file_.write(usd_material(material_of(names[k]), look, file_.file()));
   }
 }
 

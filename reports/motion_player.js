@@ -244,7 +244,7 @@
       this.moment = moment;
       this.painter.place(moment);
       const frame = Math.round(moment);
-      const digits = motion.seconds < 0.0095 ? 3 : 2;
+      const digits = Math.max(2, Math.ceil(-Math.log10(motion.seconds) - 1e-9));
       const said = `t = ${(motion.time + frame * motion.seconds).toFixed(digits)} s`;
       this.slider.value = frame;
       this.slider.setAttribute("aria-valuetext", said);

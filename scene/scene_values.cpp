@@ -195,6 +195,14 @@ const MomentField* find_moment(const std::string& name) {
   return found == moments.end() ? nullptr : &*found;
 }
 
+/// Finds a field by its path. The path of an effect that is not repeated may contain the number 0, as in --set.
+std::vector<SceneField>::const_iterator find_field(const std::vector<SceneField>& fields, std::string path) {
+  const auto found = std::ranges::find(fields, path, &SceneField::path);
+  const std::size_t number = path.starts_with("effects.") ? path.find(".0.") : std::string::npos;
+  if (found != fields.end() || number == std::string::npos) return found;
+  return std::ranges::find(fields, path.erase(number, 2), &SceneField::path);
+}
+
 /// Suggests an existing name for an unknown one: the nearest name, or one that ends in it.
 std::string suggestion(const std::string& name, const std::vector<SceneField>& fields) {
   std::vector<std::string> names = moment_fields();
@@ -241,7 +249,7 @@ TextTemplate fill_caption(const std::string& text, const std::vector<SceneField>
     const TextTemplate::Piece piece = filled.pieces()[i];
     if (!piece.is_field) continue;
     try {
-      const auto field = std::ranges::find(fields, piece.text, &SceneField::path);
+      const auto field = find_field(fields, piece.text);
       if (find_moment(piece.text) != nullptr) {
         format_field(moment_value(piece.text, Frame{}, 1), piece.format);
       } else if (field != fields.end()) {

@@ -15,6 +15,7 @@
 
 #include "core/bytes.hpp"
 #include "core/files.hpp"
+#include "core/text.hpp"
 #include "drape/render/image.hpp"
 #include "output/codecs/codecs.hpp"
 #include "reports/chart.hpp"
@@ -331,9 +332,11 @@ class Films {
     Markup grids;
     for (const SweepGrid& grid : grids_of(results_)) grids += of(grid);
     if (moments_.empty()) return {};
+    double spacing = 1;
+    for (std::size_t i = 1; i < moments_.size(); ++i) spacing = std::min(spacing, moments_[i] - moments_[i - 1]);
     std::vector<std::string> names;
     for (std::size_t i = 0; i < moments_.size(); ++i) {
-      names.push_back(same_moments_ ? fmt::format("t = {:.2f} s", moments_[i])
+      names.push_back(same_moments_ ? "t = " + readable_time(moments_[i], spacing)
                                     : fmt::format("moment {} of {}", i + 1, moments_.size()));
     }
     Markup content = html::strips("films-in-step", names, grids);

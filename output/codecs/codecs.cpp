@@ -249,6 +249,12 @@ int orientation(std::string_view exif) {
   return 1;
 }
 
+/// Returns the Exif orientation of a JPEG file whose header was read.
+int orientation(const Reader& reader) {
+  const jpeg_marker_struct* exif = reader.info.marker_list;
+  return exif == nullptr ? 1 : orientation({reinterpret_cast<const char*>(exif->data), exif->data_length});
+}
+
 /// Turns a picture upright.
 cv::Mat upright(const cv::Mat& picture, int orientation) {
   constexpr int across = 1, down = 0, both = -1;  // codes of cv::flip
@@ -263,6 +269,14 @@ cv::Mat upright(const cv::Mat& picture, int orientation) {
 
 bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xFF\xD8\xFF"); }
 
+bool is_upright_rgb_jpeg(std::string_view bytes) {
+  if (!is_jpeg(bytes)) return false;
+  Reader reader{};
+  const bool plain = begin_jpeg(reader, bytes) && reader.info.num_components == 3 && orientation(reader) == 1;
+  jpeg_destroy_decompress(&reader.info);
+  return plain;
+}
+
 cv::Mat bgr_from_jpeg(std::string_view bytes, bool turns) {
   Reader reader{};
   cv::Mat picture;
@@ -271,9 +285,7 @@ cv::Mat bgr_from_jpeg(std::string_view bytes, bool turns) {
   const std::uint64_t width = reader.info.image_width, height = reader.info.image_height;
   whole = whole && width * height <= most_decoded_pixels;
   if (whole) {
-    if (const jpeg_marker_struct* exif = reader.info.marker_list; turns && exif != nullptr) {
-      turn = orientation({reinterpret_cast<const char*>(exif->data), exif->data_length});
-    }
+    if (turns) turn = orientation(reader);
     const int type = reader.info.out_color_space == JCS_CMYK ? CV_8UC4 : CV_8UC3;
     picture.create(static_cast<int>(height), static_cast<int>(width), type);
     std::vector<JSAMPROW> rows;

@@ -73,6 +73,9 @@ cv::Mat bgr_from_png(std::string_view bytes);
 /// Returns true if the first three bytes are those of a JPEG file.
 bool is_jpeg(std::string_view bytes);
 
+/// Returns true for a JPEG file of three colours whose Exif orientation turns nothing.
+bool is_upright_rgb_jpeg(std::string_view bytes);
+
 /// Decodes a JPEG file of any kind to 8-bit blue, green, red; ignores colour profiles. Prints nothing.
 /// @param turns true to turn the picture upright, as its Exif orientation says
 /// @returns an empty picture if the file is damaged, or has more than 2³⁰ pixels

@@ -341,7 +341,7 @@ std::vector<std::string> Pen::wrap(const std::string& text, int size, int width)
     }
   };
   for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find_first_of(" \n", begin), text.size());
+    const std::size_t end = std::min(text.find_first_of(" \t\n", begin), text.size());
     const std::string word = text.substr(begin, end - begin);
     const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
     if (fits(longer)) {

@@ -275,6 +275,19 @@ TEST(Outputs, OfASequenceAreToldInOneLine) {
   EXPECT_EQ(lines(finished.text), 4U) << finished.text;
 }
 
+TEST(Outputs, OfARunWithoutStepsAreTold) {
+  const SceneFolder folder;
+  folder.write("scene.toml", framed);
+  for (const std::string command :
+       {"simulate scene.toml --steps 0 -o start.obj", "render scene.toml --at 0s -o start.png"}) {
+    const Finished finished = drape(folder, command);
+    EXPECT_EQ(finished.code, 0) << finished.text;
+    EXPECT_TRUE(contains(finished.text, "0 steps\nsimulate 0")) << finished.text;
+    EXPECT_TRUE(contains(finished.text, command.substr(command.find("start")) + "  ")) << finished.text;
+    EXPECT_FALSE(contains(finished.text, "per step")) << finished.text;
+  }
+}
+
 TEST(Numbers, OfTheCommandLineAreCheckedWithTheirLimits) {
   const SceneFolder folder;
   folder.write("scene.toml", scene);

@@ -78,6 +78,23 @@ TEST(ContactSheet, HasTheLegendOnce) {
   EXPECT_EQ(rows(20), rows(0) + 20);
 }
 
+TEST(ContactSheet, TellsMomentsApartThatAreMillisecondsApart) {
+  const test::ScratchFolder folder;
+  FilmInfo film;
+  film.seconds_per_frame = 0.002;
+  film.first_frame = 140;
+  film.expected_frames = 2;
+  film.sheet = SheetGrid{.columns = 2, .rows = 1};
+  const std::string file = (folder.path() / "sheet.png").string();
+  AnySink any = make_sink(file, film);
+  auto& sheet = *std::get<std::unique_ptr<Encoder>>(any);
+  for (int i = 0; i < 2; ++i) sheet.add(Image(160, 20));
+  sheet.finish();
+  const cv::Mat whole = cv::imread(file);
+  const cv::Rect label(0, 20, 160, whole.rows - 20);
+  EXPECT_GT(cv::norm(whole(label), whole(label + cv::Point(whole.cols - 160, 0)), cv::NORM_INF), 0);
+}
+
 TEST(ContactSheet, OneFilePerFrameStaysThat) {
   const test::ScratchFolder folder;
   FilmInfo film;

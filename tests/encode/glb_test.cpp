@@ -4,9 +4,14 @@
 
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
 
+#include "output/codecs/codecs.hpp"
 #include "output/glb_writer.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/random.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace drape::test {
@@ -22,14 +27,14 @@ class Glb : public InScratchFolder {
     film.uvs = &uvs;
   }
 
-  /// Writes three frames, in which the cloth may rise, and a ball.
-  void write(double rise) {
+  /// Writes three frames, in which the cloth may rise, and a ball that may rise and grow.
+  void write(double rise, double growth = 0) {
     film.expected_frames = 3;
     GlbWriter writer(path("x.glb"), film);
     for (int k = 0; k < 3; ++k) {
       Frame frame{.index = k, .time = 0.04 * k, .positions = cloth.positions};
       frame.positions.col(2).array() += rise * k;
-      frame.colliders = {SphereShape{.center = {0, 0, 0.5 * rise * k}, .radius = 0.3},
+      frame.colliders = {SphereShape{.center = {0, 0, 0.5 * rise * k}, .radius = 0.3 + growth * k},
                          GroundShape{.normal = Eigen::Vector3d::UnitZ(), .height = -1}};
       writer.add(frame);
     }
@@ -51,14 +56,27 @@ class Glb : public InScratchFolder {
     binary = bytes.substr(28 + size);
   }
 
-  /// Returns x, y and z of an accessor's first element.
-  [[nodiscard]] Eigen::Vector3f first_of(int accessor) const {
+  /// Returns x, y and z of an accessor's element.
+  [[nodiscard]] Eigen::Vector3f element_of(int accessor, std::size_t k) const {
     const Json& of = json["accessors"][static_cast<std::size_t>(accessor)];
     const Json& view = json["bufferViews"][of["bufferView"].get<std::size_t>()];
-    const std::size_t at = view["byteOffset"].get<std::size_t>() + of["byteOffset"].get<std::size_t>();
+    const std::size_t at = view["byteOffset"].get<std::size_t>() + of["byteOffset"].get<std::size_t>() + 12 * k;
     Eigen::Vector3f v;
     std::memcpy(v.data(), binary.data() + at, 12);
     return v;
+  }
+  [[nodiscard]] Eigen::Vector3f first_of(int accessor) const { return element_of(accessor, 0); }
+
+  /// Writes a file with a texture of the given bytes. @returns the type and the bytes of its image
+  std::pair<std::string, std::string> write_textured(const std::string& name, const std::string& bytes) {
+    Look look;
+    look.texture = put(path(name), bytes);
+    film.look = &look;
+    write(0);
+    film.look = nullptr;
+    if (!json.contains("images")) return {};
+    const Json& view = json["bufferViews"][json["images"][0]["bufferView"].get<std::size_t>()];
+    return {json["images"][0]["mimeType"], binary.substr(view["byteOffset"], view["byteLength"])};
   }
 
   const Mesh grid = make_grid(2, 2);
@@ -97,6 +115,45 @@ TEST_F(Glb, HasNoAnimationWhereNothingMoves) {
   write(0);
   EXPECT_FALSE(json.contains("animations"));
   EXPECT_FALSE(json["meshes"][0]["primitives"][0].contains("targets"));
+}
+
+TEST_F(Glb, ScalesASphereThatGrows) {
+  write(0, 0.15);
+  const Json& animation = json["animations"][0];
+  ASSERT_EQ(animation["channels"].size(), 1U);
+  EXPECT_EQ(animation["channels"][0]["target"], Json({{"node", 2}, {"path", "scale"}}));
+  const int scales = animation["samplers"][0]["output"];
+  EXPECT_EQ(json["accessors"][static_cast<std::size_t>(scales)]["type"], "VEC3");
+  EXPECT_EQ(json["accessors"][static_cast<std::size_t>(scales)]["count"], 3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3f expected = Eigen::Vector3f::Constant(1 + 0.5F * static_cast<float>(k));
+    EXPECT_LT((element_of(scales, k) - expected).norm(), 1e-6F) << k;
+  }
+  write(0.25, 0.15);
+  EXPECT_EQ(json["animations"][0]["channels"].size(), 3U);  // weights, translation and scale
+}
+
+TEST_F(Glb, StoresTexturesOfOtherFormatsAsPng) {
+  Random random(5);
+  cv::Mat picture(5, 7, CV_8UC3);
+  for (std::size_t i = 0; i < 3 * picture.total(); ++i) picture.data[i] = static_cast<std::uint8_t>(random.below(256));
+  cv::Mat gray;
+  cv::extractChannel(picture, gray, 0);
+  const auto encoded = [](const std::string& extension, const cv::Mat& image) {
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(extension, image, bytes);
+    return std::string(bytes.begin(), bytes.end());
+  };
+  for (const auto& [name, bytes] : {std::pair{"a.bmp", encoded(".bmp", picture)},
+                                    {"a.tif", encoded(".tif", picture)},
+                                    {"a.webp", encoded(".webp", picture)},
+                                    {"gray.jpg", encoded(".jpg", gray)}}) {
+    const auto [type, image] = write_textured(name, bytes);
+    EXPECT_EQ(type, "image/png") << name;
+    EXPECT_EQ(cv::norm(bgr_from_png(image), decode_picture(bytes, cv::IMREAD_COLOR), cv::NORM_INF), 0) << name;
+  }
+  const std::string jpeg = encoded(".jpg", picture);
+  EXPECT_EQ(write_textured("a.jpg", jpeg), std::pair(std::string("image/jpeg"), jpeg));
 }
 
 TEST_F(Glb, HasAMeshAndAMaterialForEachCloth) {

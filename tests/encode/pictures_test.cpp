@@ -226,6 +226,19 @@ TEST(Jpeg, ReadsInks) {
   }
 }
 
+TEST(Jpeg, IsUprightRgbWithThreeColoursAndNoTurn) {
+  const std::string rgb = jpeg_of(waves(CV_8UC3), {});
+  EXPECT_TRUE(is_upright_rgb_jpeg(rgb));
+  for (int orientation = 0; orientation <= 9; ++orientation) {
+    const bool turned = orientation >= 2 && orientation <= 8;
+    EXPECT_NE(is_upright_rgb_jpeg(with_orientation(rgb, orientation, true)), turned) << orientation;
+  }
+  EXPECT_FALSE(is_upright_rgb_jpeg(jpeg_of(waves(CV_8UC1), {})));
+  EXPECT_FALSE(is_upright_rgb_jpeg(jpeg_of_inks(200, 100, 50, 128)));
+  EXPECT_FALSE(is_upright_rgb_jpeg(rgb.substr(0, 20)));
+  EXPECT_FALSE(is_upright_rgb_jpeg(""));
+}
+
 TEST(Jpeg, OfWhatIsCutThereIsNoPicture) {
   const std::string jpeg = with_orientation(jpeg_of(waves(CV_8UC3), {}), 6, true);
   ::testing::internal::CaptureStderr();

@@ -57,6 +57,16 @@ TEST_F(SweepPage, PlaysAllFilmsInStep) {
   keep_screenshots("sweep");
 }
 
+TEST_F(SweepPage, TellsMomentsApartThatAreMillisecondsApart) {
+  put(path("a.toml"), test::tiny_scene);
+  SweepRequest request = test::request_of(path("a.toml"), {"cloth.mass=1,2"});
+  request.overrides = {"video.fps=50", "video.speed=0.1", "time.duration=0.02", "time.step=0.002"};
+  request.films = {"gif"};
+  const std::string page = sweep_page(test::sweep(request, {.folder = path("out"), .shard = {}}), path("out"));
+  EXPECT_NE(page.find("t = 0.002 s"), std::string::npos);
+  EXPECT_NE(page.find("t = 0.004 s"), std::string::npos);
+}
+
 TEST_F(SweepPage, SortsItsFigures) {
   open(page());
   const nlohmann::json before = column(1);

@@ -137,6 +137,11 @@ TEST(Pen, BreaksLinesAtSpacesOrElseBetweenLetters) {
   EXPECT_EQ(pen.wrap("a\n\nb", 16, 100), (std::vector<std::string>{"a", "", "b"}));
 }
 
+TEST(Pen, SetsATabAsASpace) {
+  Pen pen;
+  EXPECT_EQ(pen.wrap("a\tb", 16, 100), std::vector<std::string>{"a b"});
+}
+
 /// Returns the least contrast ratio (WCAG 2.1) of the letters with their surroundings.
 double least_contrast(const Image& image, const Image& plain, const Rgb& ink, int reach) {
   const std::array<std::uint8_t, 3> letter{static_cast<std::uint8_t>(std::lround(255 * ink.r)),

@@ -114,6 +114,27 @@ TEST(Usd, ItsGroundLiesWhereItLies) {
   EXPECT_NEAR(0.6 * m[12] + 0.8 * m[14], -1.25, 1e-15);
 }
 
+TEST(Usd, NamesEveryClothDifferently) {
+  const test::SceneFolder folder;
+  std::string scene = "[time]\nstep = 0.02\nduration = 0.02\n";
+  for (const char* name : {"a-b", "a_b", "a-b_2", "a-b-2"}) {
+    scene += std::string("[[cloth]]\nname = \"") + name + "\"\nmesh = { grid = [1, 1] }\nstiffness = 9\n";
+  }
+  test::write_motion(folder.load(scene), {folder.path("x.usda")});
+  const SourceText source = SourceText::read(folder.path("x.usda"));
+  const UsdStage stage(source);
+  std::vector<std::string> subsets, materials;
+  for (const UsdPrim& prim : stage.prims().at(0).children) {
+    if (prim.type == "Material") materials.push_back(prim.name);
+    for (const UsdPrim& child : prim.children) {
+      if (child.type == "GeomSubset") subsets.push_back(child.name);
+    }
+  }
+  EXPECT_EQ(subsets, (std::vector<std::string>{"a_b_2", "a_b", "a_b_2_2", "a_b_2_3"}));
+  for (std::string& name : subsets) name = "Material_" + name;
+  EXPECT_EQ(materials, subsets);
+}
+
 TEST(Usd, NamesTheTextureAsSeenFromItsFolder) {
   const test::SceneFolder folder;
   folder.write("pictures/mine.png", "");

@@ -31,6 +31,14 @@ TEST(SceneCaption, NamesAnyKeyBeItGivenOrNot) {
             "2");
 }
 
+TEST(SceneCaption, NamesASingleEffectWithItsNumberToo) {
+  const std::string sphere = "[effects.sphere]\ncenter = [0, 0, 5]\nradius = 2\n";
+  EXPECT_EQ(filled(with_caption("{effects.sphere.0.radius:.1f}, {effects.sphere.radius}") + sphere), "2.0, 2");
+  const SceneFolder folder;
+  EXPECT_NE(folder.problems(with_caption("{effects.sphere.1.radius}") + sphere).find("unknown name"),
+            std::string::npos);
+}
+
 TEST(SceneCaption, FollowsOverrides) {
   const SceneFolder folder;
   const Scene scene = folder.load(with_caption("ε = {integrator.tolerance}"), {"integrator.tolerance=0.004"});

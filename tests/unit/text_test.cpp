@@ -81,5 +81,14 @@ TEST(ReadableLength, TakesTheUnitOfTheRoundedNumber) {
   EXPECT_EQ(readable_length(0.9996e-6), "1 µm");
 }
 
+TEST(ReadableTime, TellsNeighbouringFramesApart) {
+  EXPECT_EQ(readable_time(0.284, 0.002), "0.284 s");
+  EXPECT_EQ(readable_time(0.28, 0.04), "0.28 s");
+  EXPECT_EQ(readable_time(3, 2), "3.00 s");
+  EXPECT_EQ(readable_time(0.25, 0.05 - 0.04), "0.25 s");
+  EXPECT_EQ(readable_time(0.25, 0.001), "0.250 s");
+  EXPECT_EQ(readable_time(1.5e-5, 5e-6), "0.000015 s");
+}
+
 }  // namespace
 }  // namespace drape
