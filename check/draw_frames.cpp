@@ -219,10 +219,10 @@ class Players {
       whole_ = false;
     }
   }
-  void finish(DifferenceAnimation& made) {
+  void finish(const View& first, const Eigen::Vector3d& up, DifferenceAnimation& made) {
     if (!whole_ || actual_.frames() == 0) return;
-    made.expected = expected_.finish();
-    made.actual = actual_.finish();
+    made.expected = expected_.finish(first, up);
+    made.actual = actual_.finish(first, up);
   }
 
  private:
@@ -233,7 +233,6 @@ class Players {
     film.seconds_per_frame = golden.step * static_cast<double>(golden.window_steps) / 2;  // middles and ends of windows
     film.cloth = &scene.simulation.cloth;
     film.look = &scene.look;
-    film.camera = &scene.camera;
     return film;
   }
 
@@ -261,7 +260,8 @@ std::vector<Pair> motion_pairs(const Scene& scene, const Golden& golden, std::si
       players.add(time, at, system.colliders_at(time));
     }
   }
-  players.finish(made);
+  const double begin = static_cast<double>(golden.windows[first].start.step) * golden.step;
+  players.finish(view_near(golden, begin), scene.camera.up, made);
   return pairs;
 }
 

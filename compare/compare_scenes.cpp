@@ -231,7 +231,6 @@ class Comparison {
     const Ending ending = result_.interrupted ? Ending::early : Ending::complete;
     if (!result_.times.empty()) {
       result_.outputs = outputs_.finish(ending);
-      for (std::size_t i = 0; i < packers_.size(); ++i) result_.motions[i].played = packers_[i].finish();
       for (const std::string& path : outputs_that(true, options_)) write_page(path, ending);
     }
     for (const std::string& problem : outputs_.problems()) result_.problems.push_back(problem);
@@ -279,6 +278,10 @@ class Comparison {
       for (Renderer& renderer : renderers_) renderer.look_from(path.at(k));
       add_frame(k, moment);
     });
+    if (result_.times.empty()) return;
+    for (std::size_t i = 0; i < packers_.size(); ++i) {
+      result_.motions[i].played = packers_[i].finish(path.at(frames_.first), first_.camera.up);
+    }
   }
 
   void add_frame(int index, const Moment& moment) {
@@ -312,7 +315,6 @@ class Comparison {
       FilmInfo own = film;
       own.cloth = &scene.simulation.cloth;
       own.look = &scene.look;
-      own.camera = &first_.camera;
       packers_.emplace_back(own);
     }
   }

@@ -8,8 +8,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "drape/core/error.hpp"
+#include "drape/core/rotation.hpp"
 #include "output/mesh_writers.hpp"
 #include "output/png_encoder.hpp"
 #include "render/overlay/color_scale.hpp"
@@ -282,7 +284,7 @@ void MotionPacker::pack_colliders(const Frame& frame, std::string& bytes) {
   bytes += balls + planes;
 }
 
-std::string MotionPacker::description() const {
+std::string MotionPacker::description(const View& first, const Eigen::Vector3d& up) const {
   const Look look = film_.look != nullptr ? *film_.look : Look{};
   std::vector<std::size_t> vertices, triangles;
   for (const Mesh& mesh : meshes_) {
@@ -294,24 +296,26 @@ std::string MotionPacker::description() const {
   for (int i = 0; i <= stops; ++i) colors.push_back(list(viridis(static_cast<double>(i) / stops)));
   std::vector<std::string> marks;
   for (const Tick& mark : scale_.marks(100)) marks.push_back(fmt::format("[{:.6g}, \"{}\"]", mark.value, mark.label));
-  const Camera camera = film_.camera != nullptr ? *film_.camera : Camera{};
+  const Eigen::Matrix3d base = rotation_from_z(up).toRotationMatrix(), axes = first.axes() * base;
+  constexpr double degrees = 180 / std::numbers::pi;
   return fmt::format(
       "{{\"frames\": {}, \"poster\": {}, \"fps\": {}, \"time\": {}, \"seconds\": {}, \"vertices\": [{}], "
       "\"triangles\": [{}], "
       "\"spheres\": {}, \"grounds\": {}, \"origin\": [{}], \"precision\": {}, \"lowest\": [{}], \"highest\": [{}], "
       "\"side\": {}, \"leastStrain\": {}, \"strainSteps\": {}, \"limit\": {}, \"scale\": [{}], \"marks\": [{}], "
-      "\"cloth\": {}, \"sphere\": {}, \"body\": {}, \"ground\": {}, \"grid\": {}, \"azimuth\": {}, "
-      "\"elevation\": {}, \"lines\": {}, \"textured\": {}}}",
+      "\"cloth\": {}, \"sphere\": {}, \"body\": {}, \"ground\": {}, \"grid\": {}, \"base\": [[{:.6g}], [{:.6g}], "
+      "[{:.6g}]], \"azimuth\": {:.6g}, \"elevation\": {:.6g}, \"lines\": {}, \"textured\": {}}}",
       frames_, poster_->index(), film_.fps, time_, film_.seconds_per_frame, fmt::join(vertices, ", "),
       fmt::join(triangles, ", "), spheres_, grounds_, fmt::join(origin_, ", "), precision_, fmt::join(lowest_, ", "),
       fmt::join(highest_, ", "), patch_.side, least_strain, strain_steps, scale_.limit(), fmt::join(colors, ", "),
       fmt::join(marks, ", "), list(look.color), list(look.sphere_color), list(look.body_color), list(look.ground_color),
-      look.ground_grid, camera.azimuth.value_or(Camera::usual_azimuth),
-      camera.elevation.value_or(Camera::usual_elevation), look.mesh_lines, !texture_.empty());
+      look.ground_grid, fmt::join(base.col(0), ", "), fmt::join(base.col(1), ", "), fmt::join(base.col(2), ", "),
+      degrees * std::atan2(-axes(0, 0), axes(0, 1)), degrees * std::asin(std::clamp(axes(2, 2), -1.0, 1.0)),
+      look.mesh_lines, !texture_.empty());
 }
 
-html::PlayedMotion MotionPacker::finish() {
-  return {.description = description(),
+html::PlayedMotion MotionPacker::finish(const View& first, const Eigen::Vector3d& up) {
+  return {.description = description(first, up),
           .data = compressor_->finish(),
           .texture = texture_,
           .frames = frames_,
@@ -322,24 +326,40 @@ html::PlayedMotion MotionPacker::finish() {
 }
 
 HtmlWriter::HtmlWriter(const std::filesystem::path& file, const FilmInfo& film)
-    : scene_(film.scene), file_(file), packer_(film) {}
+    : film_(film), file_(file), packer_(film), samples_(film.expected_frames, film.triangles().size()) {}
 
 void HtmlWriter::add(const Frame& frame) {
   try {
     packer_.add(frame);
+    samples_.add(frame);
   } catch (const OutputError& error) {
     throw OutputError(fmt::format("{}: {}", file_.file().string(), error.what()));
   }
 }
 
+View HtmlWriter::first_view(const Camera& camera) const {
+  const std::vector<Frame>& frames = samples_.frames();
+  const Look usual;
+  return camera_path(camera, {.aspect = static_cast<double>(film_.width) / (film_.height - film_.bands),
+                              .fps = film_.fps,
+                              .count = static_cast<int>(frames.size()),
+                              .triangles = film_.triangles(),
+                              .start = frames.front().positions,
+                              .look = film_.look != nullptr ? *film_.look : usual,
+                              .pass = [&](const auto& visit) { std::ranges::for_each(frames, visit); }})
+      .at(0);
+}
+
 std::vector<OutputFile> HtmlWriter::finish(Ending ending) {
   if (packer_.frames() == 0) return {};
-  const html::PlayedMotion motion = packer_.finish();
-  html::Page page{.title = scene_,
+  const Camera usual{.azimuth = Camera::usual_azimuth, .elevation = Camera::usual_elevation};
+  const Camera& camera = film_.camera != nullptr ? *film_.camera : usual;
+  const html::PlayedMotion motion = packer_.finish(first_view(camera), camera.up);
+  html::Page page{.title = film_.scene,
                   .kind = "drape",
-                  .heading = scene_,
+                  .heading = film_.scene,
                   .introduction = {},
-                  .content = html::motion_player("motion", motion, "The cloth of " + scene_),
+                  .content = html::motion_player("motion", motion, "The cloth of " + film_.scene),
                   .foot = {{"Motion", describe(motion)}}};
   file_.write(html::render(page));
   const std::uintmax_t size = file_.commit(ending);

@@ -11,6 +11,7 @@
 #include "output/mesh_writers.hpp"
 #include "output/png_encoder.hpp"
 #include "output/registry.hpp"
+#include "render/camera_path.hpp"
 #include "render/overlay/color_scale.hpp"
 #include "reports/players.hpp"
 
@@ -78,7 +79,9 @@ class MotionPacker {
   [[nodiscard]] int frames() const { return frames_; }
 
   /// Completes the motion, which must have a frame. Call it once.
-  [[nodiscard]] html::PlayedMotion finish();
+  /// @param first the player's first view shows the whole motion from this view's direction
+  /// @param up    axis about which the player turns
+  [[nodiscard]] html::PlayedMotion finish(const View& first, const Eigen::Vector3d& up);
 
  private:
   class Compressor;
@@ -92,7 +95,7 @@ class MotionPacker {
   void add_mesh(const std::vector<Triangle>& triangles, Eigen::Index vertices, std::string& bytes);
   void pack_colliders(const Frame& frame, std::string& bytes);
   [[nodiscard]] VertexIntegers whole(const Vertices& x) const;
-  [[nodiscard]] std::string description() const;
+  [[nodiscard]] std::string description(const View& first, const Eigen::Vector3d& up) const;
 
   FilmInfo film_;
   ColorScale scale_;
@@ -109,8 +112,9 @@ class MotionPacker {
   int spheres_ = 0, grounds_ = 0, frames_ = 0;
 };
 
-/// Writes the motion as a self-contained page whose player turns the cloth, plays it and colours it by stretch. Only
-/// the compressed motion is in memory.
+/// Writes the motion as a self-contained page whose player turns the cloth, plays it and colours it by stretch. It is
+/// first seen from the direction of the film's first frame. Only the compressed motion is in memory, and the few frames
+/// by which an automatic camera is placed.
 class HtmlWriter final : public MotionWriter {
  public:
   HtmlWriter(const std::filesystem::path& file, const FilmInfo& film);
@@ -119,9 +123,12 @@ class HtmlWriter final : public MotionWriter {
   std::vector<OutputFile> finish(Ending ending) override;
 
  private:
-  std::string scene_;
+  [[nodiscard]] View first_view(const Camera& camera) const;
+
+  FilmInfo film_;
   PartialFile file_;
   MotionPacker packer_;
+  SampledFrames samples_;
 };
 
 OutputFormat html_format();

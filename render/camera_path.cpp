@@ -208,19 +208,6 @@ constexpr double bodies = 0.6;      // fully visible spheres, relative to a clot
 constexpr double movement = 0.1;    // per half picture height between two frames
 constexpr double unusual = 0.05;    // deducted if the camera stands opposite its usual side
 
-/// Returns evenly spread frames of a film.
-std::vector<Frame> samples_of(const KnownFilm& film) {
-  const auto affordable = static_cast<int>(most_triangles / std::max<std::size_t>(1, film.triangles.size()));
-  const int count = std::min(film.count, std::clamp(affordable, 2, most_samples));
-  std::vector<Frame> samples;
-  int index = 0;
-  film.pass([&](const Frame& frame) {
-    const auto next = static_cast<std::int64_t>(samples.size()) * (film.count - 1) / std::max(1, count - 1);
-    if (index++ == next && static_cast<int>(samples.size()) < count) samples.push_back(frame);
-  });
-  return samples;
-}
-
 /// Object at a pixel of a small picture.
 enum class Seen : std::uint8_t { nothing, front, back, body };
 
@@ -426,9 +413,21 @@ Camera placed(const Camera& camera, double azimuth, double elevation) {
 
 }  // namespace
 
+SampledFrames::SampledFrames(int count, std::size_t triangles) : count_(std::max(1, count)) {
+  const auto affordable = static_cast<int>(most_triangles / std::max<std::size_t>(1, triangles));
+  most_ = std::min(count_, std::clamp(affordable, 2, most_samples));
+}
+
+void SampledFrames::add(const Frame& frame) {
+  const auto next = static_cast<std::int64_t>(frames_.size()) * (count_ - 1) / std::max(1, most_ - 1);
+  if (index_++ == next && static_cast<int>(frames_.size()) < most_) frames_.push_back(frame);
+}
+
 Camera well_placed(const Camera& camera, const KnownFilm& film) {
   if (camera.position || (camera.azimuth && camera.elevation)) return camera;
-  const std::vector<Frame> frames = samples_of(film);
+  SampledFrames samples(film.count, film.triangles.size());
+  film.pass([&](const Frame& frame) { samples.add(frame); });
+  const std::vector<Frame>& frames = samples.frames();
   Camera best = placed(camera, Camera::usual_azimuth, Camera::usual_elevation);
   double most = -unlimited;
   for (const double elevation : elevations) {

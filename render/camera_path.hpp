@@ -16,7 +16,8 @@ struct KnownFilm {
   double fps;     ///< frames per second
   int count;      ///< number of frames, at least 1
   const std::vector<Triangle>& triangles;
-  const Look& look;  ///< position of the key light
+  const Vertices& start;  ///< positions at the scene's start, n×3 [m]
+  const Look& look;       ///< position of the key light
   /// Calls its argument for each frame in order. May be called several times.
   std::function<void(const std::function<void(const Frame&)>&)> pass;
 };
@@ -35,6 +36,23 @@ class CameraPath {
 
  private:
   std::vector<View> views_;
+};
+
+/// The evenly spread frames of a film by which well_placed() judges directions.
+class SampledFrames {
+ public:
+  /// @param count     number of the film's frames
+  /// @param triangles number of the cloth's triangles: a large mesh gets fewer frames
+  SampledFrames(int count, std::size_t triangles);
+
+  /// Takes the film's next frame.
+  void add(const Frame& frame);
+
+  [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
+
+ private:
+  int count_, most_, index_ = 0;
+  std::vector<Frame> frames_;
 };
 
 /// Completes a camera's azimuth and elevation. If one is absent, it takes the best of a few directions, judged by small

@@ -33,7 +33,7 @@ const MotionPainter = (() => {
     }`;
   const fragmentShader = `#version 300 es
     precision highp float;
-    uniform vec3 eye, color, sun;
+    uniform vec3 eye, color, sun, sky;
     uniform float limit, grid, reach;  // above 0: range of the colours; line distance and fade-out distance of a ground
     uniform vec4 paint;                // alpha above 0: a colour without lighting
     uniform vec3 middle, across, along;
@@ -56,7 +56,7 @@ const MotionPainter = (() => {
       float size = float(textureSize(scale, 0).x);
       vec3 base = linear(limit > 0.0 ? texture(scale, vec2((clamp(value / limit, 0.0, 1.0) * (size - 1.0) + 0.5) / size,
                                                            0.5)).rgb : textured ? texture(picture, uv).rgb : color);
-      float light = 0.62 * max(dot(n, sun), 0.0) + 0.2 * max(dot(n, view), 0.0) + 0.2 + 0.1 * n.z;
+      float light = 0.62 * max(dot(n, sun), 0.0) + 0.2 * max(dot(n, view), 0.0) + 0.2 + 0.1 * dot(n, sky);
       if (back) light *= 0.85;
       float alpha = 1.0;
       if (reach > 0.0) {
@@ -326,6 +326,11 @@ const MotionPainter = (() => {
       return [...normal, this.planes[i + 3] - dot(normal, this.motion.origin)];
     }
 
+    /// Returns true if the eye is on a ground's upper side.
+    faces(plane, look) {
+      return dot(plane, look.eye) > plane[3];
+    }
+
     ground(plane, look) {
       const { gl, motion } = this;
       const normal = plane.slice(0, 3);
@@ -340,7 +345,7 @@ const MotionPainter = (() => {
       gl.enable(gl.BLEND);
       const shade = look.dark ? 0.32 : 1;
       this.fill(this.square, { color: motion.ground.map((x) => shade * x), reach, grid: motion.grid, middle, across, along });
-      if (dot(normal, look.eye) > plane[3]) {
+      if (this.faces(plane, look)) {
         gl.enable(gl.STENCIL_TEST);
         gl.depthMask(false);
         gl.clear(gl.STENCIL_BUFFER_BIT);
@@ -357,9 +362,14 @@ const MotionPainter = (() => {
       gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
       gl.clearColor(0, 0, 0, 0);
       gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
-      this.set({ projection: look.projection, eye: look.eye, sun: look.sun });
-      for (let i = 0; i < this.planes.length; i += 4) this.ground(this.plane(i), look);
+      this.set({ projection: look.projection, eye: look.eye, sun: look.sun, sky: look.sky });
+      const planes = [];
+      for (let i = 0; i < this.planes.length; i += 4) planes.push(this.plane(i));
+      for (const plane of planes.filter((one) => this.faces(one, look))) this.ground(plane, look);
       this.things(look);
+      gl.depthMask(false); // a ground seen from behind is a veil over the things beyond it
+      for (const plane of planes.filter((one) => !this.faces(one, look))) this.ground(plane, look);
+      gl.depthMask(true);
     }
   };
 })();

@@ -9,6 +9,7 @@
   class Orbit {
     constructor(motion) {
       this.motion = motion;
+      this.base = motion.base ?? [[1, 0, 0], [0, 1, 0], [0, 0, 1]]; // studies of earlier versions have none
       this.box = [motion.lowest, motion.highest].map((corner) => corner.map((x, c) => x - motion.origin[c]));
       this.size = Math.max(Math.hypot(...this.box[1].map((x, c) => x - this.box[0][c])), 1e-6);
       this.points = this.sample();
@@ -53,16 +54,18 @@
     }
     turn(azimuth, elevation) {
       this.azimuth = (this.azimuth + azimuth + 540) % 360 - 180;
-      this.elevation = clamp(this.elevation + elevation, -89, 89);
+      this.elevation = clamp(this.elevation + elevation, -90, 90);
     }
     /// Zooms by up to 8 times: beyond it a pixel is smaller than the precision.
     enlarge(factor) {
       this.zoom = clamp(this.zoom * factor, 0.2, 8);
     }
+    /// Returns the unit vectors right, top and back of a view. The motion's base turns them from the xy plane and z.
     axes(azimuth = this.azimuth, elevation = this.elevation) {
       const [a, e] = [azimuth, elevation].map((x) => (x * Math.PI) / 180);
-      const back = [Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)];
-      const right = [-Math.sin(a), Math.cos(a), 0];
+      const turned = (x) => [0, 1, 2].map((c) => this.base.reduce((sum, axis, k) => sum + x[k] * axis[c], 0));
+      const back = turned([Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)]);
+      const right = turned([-Math.sin(a), Math.cos(a), 0]);
       return [right, cross(back, right), back];
     }
     /// Computes the distance that fits the whole motion into the first view.
@@ -114,7 +117,7 @@
       this.moment = 0;
       this.last = motion.frames - 1;
       const [right, up, back] = this.orbit.axes();
-      this.sun = unit([0, 1, 2].map((c) => -0.55 * right[c] + 0.35 * up[c] + 0.35 * back[c] + (c === 2 ? 0.9 : 0)));
+      this.sun = unit([0, 1, 2].map((c) => -0.55 * right[c] + 0.35 * up[c] + 0.35 * back[c] + 0.9 * this.orbit.base[2][c]));
       this.connect();
       this.makeScale();
       this.find(".mesh-lines").checked = motion.lines;
@@ -261,8 +264,8 @@
       if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
       const stretch = this.find(".by-stretch").checked;
       this.find(".stretch-scale").hidden = !stretch;
-      this.painter.paint({ ...orbit.look(width / height), sun: this.sun, dark: prefersDark.matches, stretch,
-                           lines: this.find(".mesh-lines").checked });
+      this.painter.paint({ ...orbit.look(width / height), sun: this.sun, sky: orbit.base[2], dark: prefersDark.matches,
+                           stretch, lines: this.find(".mesh-lines").checked });
       root.dataset.azimuth = orbit.azimuth.toFixed(1);
       root.dataset.elevation = orbit.elevation.toFixed(1);
       root.dataset.zoom = orbit.zoom.toFixed(3);

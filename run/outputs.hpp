@@ -32,6 +32,7 @@ inline KnownFilm known_film(const Scene& scene, const Eigen::Vector2i& size, int
           .fps = scene.video.fps,
           .count = count,
           .triangles = scene.simulation.cloth.triangles,
+          .start = scene.simulation.cloth.positions,
           .look = scene.look,
           .pass = std::move(pass)};
 }

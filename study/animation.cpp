@@ -212,7 +212,8 @@ std::optional<Animation> animate_errors(const Scene& scene, const SimulationSett
   if (stop.stop_requested()) return std::nullopt;
 
   const Eigen::Vector2i size(picture_width, picture_width * scene.video.size.y() / scene.video.size.x());
-  PanelPainter painter(scene, view_of(scene, size, motions), size, backend, pen);
+  const View view = view_of(scene, size, motions);
+  PanelPainter painter(scene, view, size, backend, pen);
   progress.begin("drawing the animation", "frames", static_cast<std::int64_t>(exact.size()));
   Image bar;  // the same below every frame
   const auto draw = [&](std::size_t f) {
@@ -245,7 +246,8 @@ std::optional<Animation> animate_errors(const Scene& scene, const SimulationSett
   }
   write_file_atomically(std::filesystem::path(file).replace_extension(".png"), film.stills);
   const std::size_t worst = furthest(motions, exact.back());
-  return Animation{std::move(film), pack_for_page(scene, exact), pack_for_page(scene, motions[worst]), worst};
+  return Animation{std::move(film), pack_for_page(scene, exact, view), pack_for_page(scene, motions[worst], view),
+                   worst};
 }
 
 }  // namespace drape

@@ -9,6 +9,8 @@
 #include "core/text.hpp"
 #include "drape/core/error.hpp"
 #include "output/html_writer.hpp"
+#include "render/camera_path.hpp"
+#include "run/outputs.hpp"
 #include "run/run_scene.hpp"
 
 namespace drape {
@@ -33,14 +35,13 @@ void thin(std::vector<Frame>& frames) {
 
 }  // namespace
 
-html::PlayedMotion pack_for_page(const Scene& scene, const std::vector<Frame>& frames) {
+html::PlayedMotion pack_for_page(const Scene& scene, const std::vector<Frame>& frames, const View& first) {
   std::size_t every = 1;
   while ((frames.size() + every - 1) / every > frames_of_page(scene)) every *= 2;
   FilmInfo film;
   film.scene = scene.name;
   film.cloth = &scene.simulation.cloth;
   film.look = &scene.look;
-  film.camera = &scene.camera;
   if (frames.size() > every) film.seconds_per_frame = frames[every].time - frames[0].time;
   film.fps = std::min(1 / film.seconds_per_frame, highest_rate);
   MotionPacker packer(film);
@@ -49,7 +50,7 @@ html::PlayedMotion pack_for_page(const Scene& scene, const std::vector<Frame>& f
   } catch (const OutputError&) {
     return {};
   }
-  return packer.finish();
+  return packer.finish(first, scene.camera.up);
 }
 
 StudyMotionRecorder::StudyMotionRecorder(const Scene& scene) : scene_(scene), most_(frames_of_page(scene)) {}
@@ -68,7 +69,11 @@ void StudyMotionRecorder::add(const Simulation& simulation) {
 }
 
 html::PlayedMotion StudyMotionRecorder::finish() const {
-  return frames_.empty() ? html::PlayedMotion{} : pack_for_page(scene_, frames_);
+  if (frames_.empty()) return {};
+  const auto pass = [this](const auto& visit) { std::ranges::for_each(frames_, visit); };
+  const auto count = static_cast<int>(frames_.size());
+  return pack_for_page(scene_, frames_,
+                       camera_path(scene_.camera, known_film(scene_, scene_.video.size, count, pass)).at(0));
 }
 
 std::optional<StudyMotion> record_study_motion(const StudyCase& study_case, const std::string& label,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drape/render/view.hpp"
 #include "drape/sim/simulation.hpp"
 #include "drape/sim/state.hpp"
 #include "reports/players.hpp"
@@ -24,7 +25,8 @@ struct StudyMotion {
 /// Packs evenly spaced frames. Keeps every 2nd, 4th … frame so that at most 100 frames and 50 000 vertex positions
 /// remain. Each motion adds some hundred kB to a page.
 /// @param frames at least one
-html::PlayedMotion pack_for_page(const Scene& scene, const std::vector<Frame>& frames);
+/// @param first  as in MotionPacker::finish()
+html::PlayedMotion pack_for_page(const Scene& scene, const std::vector<Frame>& frames, const View& first);
 
 /// Recorder of a run's states for a study's page: evenly spaced, as many as pack_for_page() takes, for runs of any
 /// length.

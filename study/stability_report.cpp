@@ -118,6 +118,7 @@ StudyMotion limit_motion(double factor) {
   scene.name = "stability";
   scene.simulation = stability_cloth(Method::semi_implicit, StabilityAxis::springs, factor * safe, stiffness);
   scene.look.mesh_lines = true;
+  scene.camera = {.azimuth = Camera::usual_azimuth, .elevation = Camera::usual_elevation};  // the same for both motions
   const Vertices& at_first = scene.simulation.cloth.positions;
   const double size = (at_first.colwise().maxCoeff() - at_first.colwise().minCoeff()).norm();
   StudyMotionRecorder recorder(scene);

@@ -220,21 +220,20 @@ View close_view(const Scene& scene, const WorstState& state, const View& whole, 
 }
 
 /// Returns a state as an interactive view.
-html::PlayedMotion turned(const Scene& scene, const Frame& frame) {
+html::PlayedMotion turned(const Scene& scene, const Frame& frame, const View& first) {
   Look look = scene.look;
   look.mesh_lines = true;
   FilmInfo film;
   film.scene = scene.name;
   film.cloth = &scene.simulation.cloth;
   film.look = &look;
-  film.camera = &scene.camera;
   MotionPacker packer(film);
   try {
     packer.add(frame);
   } catch (const OutputError&) {
     return {};
   }
-  return packer.finish();
+  return packer.finish(first, scene.camera.up);
 }
 
 Markup pictures(const AuditReport& report, const std::vector<DrawnFinding>& drawn) {
@@ -272,8 +271,10 @@ std::vector<DrawnFinding> draw_findings(const Scene& scene, const AuditReport& r
     const View whole = whole_view(scene, state, aspect);
     Renderer renderer(data_folder(), size, whole, look, cloth.vertex_count(), cloth.triangles, scene.uvs, backend);
     const Frame frame{.time = state.time, .positions = state.x, .colliders = state.colliders};
-    DrawnFinding pictures{
-        .check = check, .whole = encode_png(renderer.draw(frame, colors)), .close = {}, .turned = turned(scene, frame)};
+    DrawnFinding pictures{.check = check,
+                          .whole = encode_png(renderer.draw(frame, colors)),
+                          .close = {},
+                          .turned = turned(scene, frame, whole)};
     renderer.look_from(close_view(scene, state, whole, aspect));
     pictures.close = encode_png(renderer.draw(frame, colors));
     drawn.push_back(std::move(pictures));

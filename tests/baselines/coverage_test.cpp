@@ -104,6 +104,7 @@ double coverage_of_film(const fs::path& file) {
                        .fps = scene.video.fps,
                        .count = static_cast<int>(frames.size()),
                        .triangles = scene.simulation.cloth.triangles,
+                       .start = scene.simulation.cloth.positions,
                        .look = look,
                        .pass = [&](const auto& visit) { std::ranges::for_each(frames, visit); }};
   const CameraPath path = camera_path(scene.camera, film);

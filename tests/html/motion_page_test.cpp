@@ -9,6 +9,7 @@
 #include "drape/core/error.hpp"
 #include "output/html_writer.hpp"
 #include "output/png_encoder.hpp"
+#include "render/camera_path.hpp"
 #include "tests/html/html_page.hpp"
 #include "tests/support/random.hpp"
 
@@ -227,6 +228,77 @@ TEST_F(MotionPage, TurnsByKeysAndPointer) {
       "c.dispatchEvent(new PointerEvent('pointerup', at(400, 250)));");
   EXPECT_LT(number("azimuth"), Camera::usual_azimuth - 5) << "what is dragged to the right turns to the right";
   EXPECT_LT(number("elevation"), Camera::usual_elevation) << "dragged up, it is seen from further below";
+}
+
+// A ground seen from behind is a veil, below the things or a wall before them.
+TEST_F(MotionPage, ShowsThingsThroughAGround) {
+  const Camera below{.azimuth = Camera::usual_azimuth, .elevation = -20};
+  film.camera = &below;
+  write();
+  for (int channel = 0; channel < 3; ++channel) EXPECT_GT(pixels_of(channel), 300) << channel;
+  keep_screenshots("motion-below");
+  film.camera = nullptr;
+  write([this](int k) {
+    Frame frame = this->frame(k);
+    frame.colliders.emplace_back(GroundShape{.normal = Eigen::Vector3d::UnitY(), .height = -1.2});
+    return frame;
+  });
+  for (int channel = 0; channel < 3; ++channel) EXPECT_GT(pixels_of(channel), 300) << channel;
+  keep_screenshots("motion-wall");
+}
+
+class FirstView : public MotionPage {
+ protected:
+  /// Returns the view of the film's first frame.
+  [[nodiscard]] View of_film(const Camera& camera) const {
+    const auto pass = [this](const auto& visit) {
+      for (int k = 0; k < frames; ++k) visit(frame(k));
+    };
+    return camera_path(camera, {.aspect = 1,
+                                .fps = film.fps,
+                                .count = frames,
+                                .triangles = cloth.triangles,
+                                .start = cloth.positions,
+                                .look = look,
+                                .pass = pass})
+        .at(0);
+  }
+  [[nodiscard]] Eigen::Matrix3d axes_of_page() const {
+    const auto rows = of_turn("player.orbit.axes()");
+    Eigen::Matrix3d axes;
+    for (int i = 0; i < 9; ++i)
+      axes(i / 3, i % 3) = rows[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)];
+    return axes;
+  }
+};
+
+TEST_F(FirstView, IsThatOfTheFilm) {
+  using Eigen::Vector3d;
+  const Vector3d z = Vector3d::UnitZ(), y = Vector3d::UnitY();
+  const std::vector<Camera> cameras{{.position = Vector3d(3, 2, 1), .target = Vector3d(0, 0, -0.5)},
+                                    {.position = Vector3d(-3, 2, -1)},
+                                    {.position = Vector3d(0, 0, 5), .target = Vector3d(0, 0, 0)},
+                                    {.position = Vector3d(1, 2, 3), .target = Vector3d(0, 0, 0), .up = y},
+                                    {.up = {1, 1, -1}, .azimuth = 10, .elevation = 15},
+                                    {.azimuth = 50, .elevation = 90},
+                                    {.up = -z},
+                                    {.up = y},
+                                    {}};
+  for (const Camera& camera : cameras) {
+    film.camera = &camera;
+    write();
+    const View first = of_film(camera);
+    EXPECT_TRUE(axes_of_page().isApprox(first.axes(), 1e-4)) << first.axes();
+    browser_->run("document.querySelector('.turn canvas').focus()");
+    browser_->press(test::Browser::arrow_right);
+    const Eigen::Matrix3d turned = axes_of_page();
+    EXPECT_NEAR(turned.row(2).dot(camera.up.normalized()), first.axes().row(2).dot(camera.up.normalized()), 1e-4)
+        << "it turns about its up";
+    EXPECT_NEAR(turned.row(0).dot(camera.up.normalized()), 0, 1e-4) << "its up is upright";
+  }
+  EXPECT_FALSE(of_film({}).axes().isApprox(
+      of_film({.azimuth = Camera::usual_azimuth, .elevation = Camera::usual_elevation}).axes(), 0.01))
+      << "an automatic direction that would be a page's without a film";
 }
 
 TEST_F(MotionPage, ColoursByStretch) {

@@ -54,7 +54,7 @@ StudyReport report_with_motion() {
   }
   HomeworkStudy study = sample_study();
   for (const char* label : {"liu13 <exact>", "semi-implicit"}) {
-    study.motions.push_back({label, "drape render it -o motion.html", pack_for_page(scene, frames)});
+    study.motions.push_back({label, "drape render it -o motion.html", pack_for_page(scene, frames, distant_view({}))});
   }
   study.motions.push_back({"one that a browser cannot hold", {}, {}});
   return homework_report(study);

@@ -32,6 +32,7 @@ struct Film {
             .fps = rate,
             .count = static_cast<int>(frames.size()),
             .triangles = mesh.triangles,
+            .start = mesh.positions,
             .look = look,
             .pass = pass};
   }
