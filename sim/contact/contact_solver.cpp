@@ -491,23 +491,41 @@ bool ContactSolver::update_multipliers(const Vertices& x) {
 }
 
 void ContactSolver::move_with_obstacles(Vertices& x) {
-  for (const ContactConstraint& contact : contacts_) {
-    if (!contact.collides) continue;
-    if (!contact.with_obstacle()) continue;
-    const Eigen::RowVector3d way = -contact.carried.transpose() / contact.weight();
+  std::vector<char> moved(inverse_masses_.size(), 0);
+  const auto move = [&](const ContactConstraint& contact, const Eigen::RowVector3d& way, bool again) {
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
-      const int vertex = contact.vertices[i];
-      if (inverse_masses_[static_cast<Index>(vertex)] != 0) x.row(vertex) = start_.row(vertex) + way;
+      const auto vertex = static_cast<Index>(contact.vertices[i]);
+      if (inverse_masses_[vertex] == 0 || (moved[vertex] != 0 && !again)) continue;
+      x.row(contact.vertices[i]) = start_.row(contact.vertices[i]) + way;
+      moved[vertex] = 1;
     }
+  };
+  for (int round = 0; round < most_rounds && carried() && any_collides(); ++round) {
+    for (const ContactConstraint& contact : contacts_) {
+      if (!contact.collides) continue;
+      if (contact.with_obstacle()) {
+        move(contact, -contact.carried.transpose() / contact.weight(), true);
+        continue;
+      }
+      const auto first = contact.vertices.begin(), last = first + contact.count;
+      const auto taken = std::find_if(first, last, [&](int v) { return moved[static_cast<Index>(v)] != 0; });
+      if (taken != last) move(contact, x.row(*taken) - start_.row(*taken), false);
+    }
+    find(x, true);
   }
-  find(x, true);
 }
 
 void ContactSolver::retreat(ContactProblem& problem, Iterate& point) {
   if (!any_collides()) return;
-  for (int round = 0; round < most_rounds && carried() && any_collides(); ++round) move_with_obstacles(point.x);
+  move_with_obstacles(point.x);
   Vertices back = start_;
   for (const int pin : system_.cloth.pins) back.row(pin) = point.x.row(pin);
+  if (any_collides() && carried()) {
+    // An obstacle may have moved beyond the start.
+    find(back, true);
+    move_with_obstacles(back);
+    find(point.x, true);
+  }
   const Vertices way = point.x - back;
   double part = 1;
   for (int halving = 0; halving <= most_halvings && any_collides(); ++halving) {
@@ -534,9 +552,27 @@ double ContactSolver::work(const Vertices& x, bool converged) const {
     const double by_force = force.dot(contact.place(x) - contact.start);
     // A turning edge that pushes would gain energy from its limit.
     const bool whole = converged && contact.law != ContactLaw::length;
-    work += (whole ? by_force : std::min(by_force, separating_work(contact, force))) - force.dot(contact.carried);
+    work += (whole ? by_force : std::min(by_force, separating_work(contact, force))) -
+            force.dot(contact.carried + way_of_pins(contact, x));
   }
   return work;
+}
+
+Eigen::Vector3d ContactSolver::way_of_pins(const ContactConstraint& contact, const Vertices& x) const {
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  if (system_.pin_motions.empty()) return way;
+  for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
+    const int vertex = contact.vertices[i];
+    if (inverse_masses_[static_cast<Index>(vertex)] != 0) continue;
+    way += contact.weights[i] * (x.row(vertex) - start_.row(vertex)).transpose();
+  }
+  return way;
+}
+
+bool ContactSolver::driven(const Vertices& x) const {
+  return carried() || std::ranges::any_of(contacts_, [&](const ContactConstraint& contact) {
+           return !way_of_pins(contact, x).isZero(0);
+         });
 }
 
 bool ContactSolver::touches_obstacles() const {

@@ -59,7 +59,8 @@ class ContactSolver {
   void choose_start(ContactProblem& problem, const Vertices& steady, Iterate& point);
 
   /// Returns the work of the contacts on a cloth that moves from the start of the step to x, by their forces at x [J].
-  /// An unconverged step gets energy only from moving obstacles, and where a source separates what begins too near.
+  /// An unconverged step gets energy only from moving obstacles and pins, and where a source separates what begins too
+  /// near.
   [[nodiscard]] double work(const Vertices& x, bool converged) const;
 
   /// Returns true if contacts stop a cloth from moving straight to `target`, or if it starts in contact.
@@ -69,8 +70,8 @@ class ContactSolver {
   [[nodiscard]] bool touches_obstacles() const;
   /// Returns true if features of the cloth that pins hold pass through each other, or leave a closed seam open.
   [[nodiscard]] bool is_lost() const { return lost_; }
-  /// Returns true if the cloth touches a moving obstacle.
-  [[nodiscard]] bool carried() const;
+  /// Returns true if a moving obstacle touches the cloth, or moving pins act on a contact of a cloth that ends at x.
+  [[nodiscard]] bool driven(const Vertices& x) const;
 
   /// Sets the velocities v of features that bounced in the step, n×3 [m/s]; see Bounce.
   /// @param instantaneous true if v are instantaneous velocities at the end of the step, false if they are its mean
@@ -139,10 +140,14 @@ class ContactSolver {
   /// Moves along direction_ until the augmented function falls enough below `value`. Returns the step length, or 0.
   [[nodiscard]] double descend(ContactProblem& problem, Iterate& point, double value);
 
-  /// Moves vertices that collide with obstacles along with these.
+  /// Returns true if the cloth touches a moving obstacle.
+  [[nodiscard]] bool carried() const;
+  /// Returns the part of d(x) − d(start) that is the way of pins [m].
+  [[nodiscard]] Eigen::Vector3d way_of_pins(const ContactConstraint& contact, const Vertices& x) const;
+  /// Moves vertices of a path to x that collide with moving obstacles along with these, and what collides with them.
   void move_with_obstacles(Vertices& x);
   /// Moves vertices that collide with moving obstacles along with these. Then shortens the path to the point until no
-  /// collision is left.
+  /// collision is left, towards the start of the step that moving obstacles have pushed out of their way.
   void retreat(ContactProblem& problem, Iterate& point);
 
   const System& system_;

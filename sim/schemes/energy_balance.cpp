@@ -94,11 +94,13 @@ bool EnergyBalance::gains(const Iterate& point, bool tolerant) {
   return too_much();
 }
 
-bool EnergyBalance::gains_in_contact(const Iterate& point, double work, double tolerance) {
+bool EnergyBalance::gains_in_contact(const Iterate& point, double work, double tolerance, bool driven) {
   if (!start_exact_) evaluate_start();
   const Accuracy& accuracy = minimiser_.accuracy();
   const bool given = tolerance > 0 && !accuracy.is_default && accuracy.rule == StoppingRule::error;
-  const double solved = given ? tolerated(point) : 0.5 * tolerance * tolerance * objective_.free_inertia().sum();
+  const Eigen::VectorXd& inertia = objective_.free_inertia();
+  double solved = given ? tolerated(point) : 0.5 * tolerance * tolerance * inertia.sum();
+  if (driven) solved = std::max(solved, tolerance * inertia.dot((point.x - state_->x).rowwise().norm()));
   return gain(point) - work > rounding(point) + noticed * start_kinetic_ + solved;
 }
 

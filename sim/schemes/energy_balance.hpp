@@ -32,8 +32,10 @@ class EnergyBalance {
   /// Returns true if ΔK + ΔE − W at the point, minus the work of the contacts, exceeds rounding and the tolerated gain.
   /// With a given tolerance for errors, that is the work of their forces. By default it is the energy of displacements
   /// within the tolerance, ½ Σ m/h² δ², which does not grow with the speed, as default tolerances in contact are large.
+  /// Where obstacles or pins move the cloth, it is also the work of errors in their forces.
   /// @param work of the contacts [J] @param tolerance δ of the solve, 0 if it is not met [m]
-  [[nodiscard]] bool gains_in_contact(const Iterate& point, double work, double tolerance);
+  /// @param driven true if obstacles or pins move the cloth
+  [[nodiscard]] bool gains_in_contact(const Iterate& point, double work, double tolerance, bool driven);
   /// Returns true if ΔK + ΔE − W at the point exceeds rounding.
   /// @param tolerant true to subtract the tolerated gain
   [[nodiscard]] bool gains(const Iterate& point, bool tolerant);

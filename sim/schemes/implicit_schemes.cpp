@@ -81,8 +81,9 @@ void BackwardEuler::remove_gain(StepReport& report) {
   if (touched_) {
     const double met = report.converged ? contact_->tolerance() : 0;
     const double work = contact_->work(point_.x, report.converged);
-    if (!balance_.gains_in_contact(point_, work, met)) return;
-    if (!contact_->carried()) {
+    const bool driven = contact_->driven(point_.x);
+    if (!balance_.gains_in_contact(point_, work, met, driven)) return;
+    if (!driven) {
       report.kept = shorten(contact_->touches_obstacles());
     } else if (balance_.gains_much(point_, work)) {
       report.kept = shorten_beside_moving(work);
@@ -241,7 +242,13 @@ StepReport Sdirk2::advance_freely(State& state, StepForces& forces) {
 }
 
 bool Sdirk2::filters_gain(const State& state) {
-  const auto kinetic = [&](const Vertices& v) { return 0.5 * system_.cloth.masses.dot(v.rowwise().squaredNorm()); };
+  // Relative to the pins, so that a limit's pull by moving pins is no gain.
+  Eigen::RowVector3d frame = Eigen::RowVector3d::Zero();
+  for (const int pin : system_.cloth.pins) frame += state.v.row(pin) / static_cast<double>(system_.cloth.pins.size());
+  const double h = objective_.duration();
+  const auto kinetic = [&](const Vertices& v) {
+    return 0.5 * h * h * objective_.free_inertia().dot((v.rowwise() - frame).rowwise().squaredNorm());
+  };
   limited_.x = state.x;
   limited_.value = objective_.evaluate(limited_.x, limited_.gradient);
   const double elastic = limited_.value - objective_.inertial_value(state.x);

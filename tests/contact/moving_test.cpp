@@ -2,7 +2,12 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "drape/sim/effects/moving_pins.hpp"
+#include "drape/sim/effects/strain_limit.hpp"
 #include "tests/contact/contact_setup.hpp"
 #include "tests/support/audited_run.hpp"
 
@@ -84,6 +89,88 @@ TEST_P(Moving, PinsGoWhereTheyAreToldAcrossAnObstacle) {
   // Impulses hold what collides as one rigid body, from which pins depart.
   if (is_explicit(s.integrator.method)) return;
   EXPECT_EQ(audit_run(s, 12).with_passages, 0);
+}
+
+/// Returns the positions after some steps relative to a frame that moves upwards at `speed`, and the steps that did not
+/// converge.
+std::pair<Vertices, int> in_frame(SimulationSettings settings, double speed, int steps) {
+  settings.cloth.velocities.col(2).array() += speed;
+  const double duration = steps * settings.step;
+  if (speed != 0) {
+    settings.effects.add(MovingPins{.pins = settings.cloth.pins,
+                                    .keyframes = {{.time = 2 * duration, .value = {0, 0, 2 * duration * speed}}}});
+  }
+  Simulation simulation(settings);
+  int unsolved = 0;
+  for (int step = 0; step < steps; ++step) unsolved += simulation.step().converged ? 0 : 1;
+  Vertices x = simulation.state().x;
+  x.col(2).array() -= duration * speed;
+  return {x, unsolved};
+}
+
+/// Expects the same motion in a frame at rest and in one that moves, as Galileo says.
+void expect_same_in_moving_frame(const SimulationSettings& settings, int steps, double tolerance) {
+  const auto [at_rest, unsolved] = in_frame(settings, 0, steps);
+  for (const double speed : {2.0, -1.0}) {
+    const auto [moving, left] = in_frame(settings, speed, steps);
+    EXPECT_LT((moving - at_rest).cwiseAbs().maxCoeff(), tolerance) << speed;
+    EXPECT_LE(left, unsolved + 1) << speed;
+  }
+}
+
+// A sheet falls on a plate that pins hold or carry.
+TEST_P(Moving, PinsCarryClothThatLiesOnThem) {
+  Mesh sheet = level_square(1, 6, 0.05);
+  sheet.positions.col(0).array() += 0.1;
+  const Mesh plate = level_square(2, 4, 0), both = together({plate, sheet});
+  std::vector<int> pins;
+  for (int i = 0; i < plate.positions.rows(); ++i) pins.push_back(i);
+  SimulationSettings s = settings(make_cloth(both, both, 0.4, 50, pins), 0.005);
+  s.cloth.velocities.bottomRows(sheet.positions.rows()).col(2).setConstant(-3);
+  s.effects.add(SelfCollision{});
+  expect_same_in_moving_frame(exact(divided(s)), 40, 1e-5);
+}
+
+// A cloth hangs from pins at its strain limit.
+TEST_P(Moving, PinsPullClothAtItsStrainLimit) {
+  Mesh mesh = make_grid(8, 8);
+  mesh.positions.col(2).swap(mesh.positions.col(1));
+  std::vector<int> pins;
+  for (int i = 72; i < 81; ++i) pins.push_back(i);
+  SimulationSettings s = settings(make_cloth(mesh, mesh, 0.4, 40, pins), 0.005);
+  s.effects.add(StrainLimit{.max_stretch = 1.05});
+  expect_same_in_moving_frame(exact(divided(s)), 30, 1e-3);
+}
+
+// A box flies through a sheet's place: the sheet is taken along, whatever its vertices do to each other.
+TEST_P(Moving, ABodyTakesClothAlongThatTouchesItself) {
+  Mesh mesh = level_square(0.8, 8, 0);
+  mesh.positions = (mesh.positions * (Eigen::AngleAxisd(0.17, Eigen::Vector3d::UnitX()) *
+                                      Eigen::AngleAxisd(0.09, Eigen::Vector3d::UnitY()))
+                                         .toRotationMatrix())
+                       .eval();
+  mesh.positions.col(2).array() += 0.6;
+  SimulationSettings s = settings(make_cloth(mesh, mesh, 0.2, 50, {}), 0.005);
+  Body box = solved_box({0.3, 0.3, 0.1}, 0.05);
+  box.velocity = Eigen::Vector3d(0, 0, 1);
+  s.effects.add(SelfCollision{.thickness = 0.015});
+  s.effects.add(box);
+  const AuditedRun found = audit_run(divided(s), 100);
+  EXPECT_EQ(found.with_crossings, 0) << (found.first.empty() ? "" : found.first.front());
+}
+
+// Cloth that falls at the speed of the body below it, and comes to rest on it.
+TEST_P(Moving, ADescendingBodyLeavesStepsSolved) {
+  SimulationSettings s = settings(plain_sheet(level_square(0.6, 8, 0.11), 60), 0.01);
+  s.cloth.velocities.col(2).setConstant(-1);
+  Body box = solved_box({2, 2, 0.2}, 0);
+  box.velocity = Eigen::Vector3d(0, 0, -1);
+  s.effects.add(box);
+  s = divided(s);
+  Simulation simulation(s);
+  int unsolved = 0;
+  for (int step = 0; step < 50; ++step) unsolved += simulation.step().converged ? 0 : 1;
+  EXPECT_LE(unsolved, 2);
 }
 
 }  // namespace
