@@ -77,11 +77,16 @@ Eigen::RowVector3d BendingDashpots::rate(const Component& component, const Verti
 }
 
 void BendingDashpots::set_directions(const Vertices& x) {
+  constexpr double flat = 1e-10;  // relative to the terms of q, whose rounding has no direction
   for (Component& component : components_) {
     const Eigen::RowVector3d q = rate(component, x);
+    double size = 0;
+    for (const auto& [vertex, weight] : terms(component)) {
+      size += std::abs(weight) * (x.row(vertex) - x.row(terms_[component.first].vertex)).norm();
+    }
     const double length = q.norm();
     component.direction.setZero();
-    if (length > 0) component.direction = q / length;
+    if (length > flat * size) component.direction = q / length;
   }
 }
 

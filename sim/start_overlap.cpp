@@ -216,7 +216,10 @@ std::string overlap_advice(const StartOverlap& overlap, const SimulationSettings
 
 bool begins_too_near(const SimulationSettings& settings) {
   constexpr double rounding = 1e-6;  // of the contact distance
-  const System system = make_system(settings);
+  SimulationSettings implicit = settings;  // whose system has the contacts
+  implicit.integrator = {.method = Method::quasi_newton};
+  implicit.accuracy.reset();
+  const System system = make_system(implicit);
   const Vertices& x = settings.cloth.positions;
   const std::vector<double> inverse = inverse_masses(settings.cloth);
   std::vector<ContactConstraint> found;

@@ -97,6 +97,7 @@ bool System::move(State& state, const Vertices& reached, Vertices& way) const {
   state.v += way;
   add_multiple(threads, step, way, state.x);
   place_pins(time(state.step + 1), state.x);
+  drive_pins(time(state.step + 1), state.v);
   for (const auto& filter : filters) filter->finish(state.v);
   return converged;
 }

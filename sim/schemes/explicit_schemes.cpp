@@ -126,6 +126,7 @@ StepReport Verlet::advance(State& state, StepForces& forces) {
   if (!system_.filters.empty()) start_x_ = state.x;
   drift();
   system_.place_pins(middle, state.x);
+  if (by_velocity) system_.drive_pins(middle, state.v);
   report.converged = damped ? kick_with_dashpots(state, middle, forces) : kick(state, middle, forces, {.h = 0});
   drift();
   system_.place_pins(end, state.x);

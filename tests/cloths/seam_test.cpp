@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "drape/sim/effects/ground.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/sphere.hpp"
 #include "tests/cloths/panels.hpp"
@@ -55,6 +56,21 @@ TEST_P(Seams, ReportThatPinsKeepThemOpen) {
   cloth.pins.erase(std::unique(cloth.pins.begin(), cloth.pins.end()), cloth.pins.end());
   Simulation simulation(exactly(cloth, GetParam(), 0.01, {Gravity{}}));
   for (int k = 0; k < 3; ++k) EXPECT_FALSE(simulation.step().converged);
+}
+
+TEST(Seams, GiveTheVelocityOfMovingPinsToWhatIsSewnToThem) {
+  Cloth cloth = two_panels(1, 0, 0);
+  for (const SeamTie& tie : cloth.seams[0].ties) cloth.pins.push_back(tie.edge[tie.share < 0.5 ? 0 : 1]);
+  SimulationSettings settings = exactly(cloth, {Method::verlet, "Verlet"}, 0.002, {Gravity{}});
+  settings.effects.add(MovingPins{
+      .pins = cloth.pins, .keyframes = {{.time = 0.4, .value = {0, 0, 0.5}}}, .interpolation = Interpolation::smooth});
+  Simulation simulation(settings);
+  for (int step = 0; step < 100; ++step) simulation.step();
+  const Vertices& v = simulation.state().v;
+  EXPECT_GT(v(cloth.pins[0], 2), 1);
+  for (const SeamTie& tie : cloth.seams[0].ties) {
+    EXPECT_LT((v.row(tie.vertex) - v.row(tie.edge[tie.share < 0.5 ? 0 : 1])).norm(), 1e-9);
+  }
 }
 
 TEST_P(Seams, CloseInTheirTimeAndStayClosed) {

@@ -84,6 +84,15 @@ TEST_P(Start, WithinTheDistanceIsLegalAndSeparatedGently) {
   }
 }
 
+// A rise of energy from there on has a source.
+TEST_P(Start, WithinTheDistanceIsKnown) {
+  for (const double height : {0.51, 0.56}) {
+    SimulationSettings s = settings(plain_sheet(level_square(0.6, 6, height), 60), 0.01);
+    s.effects.add(Sphere{.center = Eigen::Vector3d(0, 0, 0), .radius = 0.5, .thickness = 0.05});
+    EXPECT_EQ(begins_too_near(s), height < 0.55);
+  }
+}
+
 TEST_P(Start, InsideABallOrABoxIsBroughtOut) {
   for (const double step : {0.002, 0.01}) {
     constexpr double deep = 0.01;

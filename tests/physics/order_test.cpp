@@ -118,6 +118,19 @@ TEST_P(SecondOrder, HoldsForPinsThatMoveSmoothly) {
   expect_second(orders(settings, exact, duration, 400));
 }
 
+TEST_P(SecondOrder, HoldsForAirOnPinsThatMoveSmoothly) {
+  constexpr double duration = 0.8;
+  SimulationSettings settings = pendulum(GetParam());
+  settings.effects.add(drape::Air{.velocity = {0.3, -4, 0}});
+  settings.effects.add(drape::MovingPins{.pins = {20, 21, 22, 23, 24},
+                                         .keyframes = {{0, {0, 0, 0}}, {1, {0.2, 0.4, 0.3}}},
+                                         .interpolation = Interpolation::smooth});
+  SimulationSettings fine = settings;
+  fine.integrator.method = Method::verlet;
+  const State exact = run(fine, duration, 10'000);
+  expect_second(orders(settings, exact, duration, 400));
+}
+
 class SecondOrderPush : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, SecondOrderPush, testing::ValuesIn(second_order_methods), method_name);
 
