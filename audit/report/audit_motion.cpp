@@ -130,7 +130,8 @@ ResultTable table_of_checks(const AuditReport& report) {
   }
   if (report.gaps) {
     table.notes.emplace_back(
-        "crossings between states: the states are more than a step apart, so the straight ways between them are not "
+        "crossings between states: the states are more than a step or substep apart, so the straight ways between them "
+        "are not "
         "those of the steps");
   }
   return table;
@@ -168,7 +169,7 @@ using html::Markup;
 constexpr Rgb marked_color{0.86, 0.08, 0.08}, plain_color{0.86, 0.83, 0.74};
 
 View whole_view(const Scene& scene, const WorstState& state, double aspect) {
-  if (!needs_motion(scene.camera)) return fixed_view(scene.camera);
+  if (!needs_motion(scene.camera)) return fixed_view(scene.camera, scene.simulation.cloth.positions);
   Framing framing(scene.camera, aspect);
   framing.add(state.x);
   for (const Collider& collider : state.colliders) framing.add(collider);
@@ -374,12 +375,13 @@ audit::AuditLimits limits_of(const Scene& scene, const AuditOptions& options, bo
 
 class SimulatedAudit final : public StepObserver {
  public:
-  SimulatedAudit(audit::MotionAudit& findings, EnergyBook& energies, Progress& progress)
-      : findings_(findings), energies_(energies), progress_(progress) {}
+  SimulatedAudit(AuditReport& report, EnergyBook& energies, Progress& progress)
+      : report_(report), energies_(energies), progress_(progress) {}
 
   void begin(const Simulation& simulation) override { add(simulation); }
-  void after_step(const Simulation& simulation, const StepReport&, double) override {
+  void after_step(const Simulation& simulation, const StepReport& step, double) override {
     add(simulation);
+    report_.gaps = report_.gaps || step.substeps > 1;
     ++progress_.done;
   }
 
@@ -387,11 +389,11 @@ class SimulatedAudit final : public StepObserver {
   void add(const Simulation& simulation) {
     const State& state = simulation.state();
     const std::vector<Collider> colliders = simulation.colliders(simulation.time());
-    findings_.add({state.step, simulation.time(), state.x, colliders});
+    report_.findings.add({state.step, simulation.time(), state.x, colliders});
     energies_.add(simulation.energies());
   }
 
-  audit::MotionAudit& findings_;
+  AuditReport& report_;
   EnergyBook& energies_;
   Progress& progress_;
 };
@@ -399,7 +401,7 @@ class SimulatedAudit final : public StepObserver {
 void audit_simulation(const Scene& scene, std::int64_t steps, EnergyBook& energies, AuditReport& report,
                       const std::stop_token& stop, Progress& progress) {
   progress.begin("auditing", "steps", steps);
-  SimulatedAudit observer(report.findings, energies, progress);
+  SimulatedAudit observer(report, energies, progress);
   const std::array<StepObserver*, 1> observers{&observer};
   try {
     Simulation simulation(scene.simulation, Timing::none, make_stop(stop));
@@ -418,7 +420,7 @@ void audit_recording(MotionReader& motion, const System& system, std::int64_t st
   for (std::size_t i = 0; i < motion.states() && !stop.stop_requested(); ++i) {
     const State& state = motion.state(i);
     if (state.step > steps) break;
-    report.gaps = report.gaps || state.step > before + 1;
+    report.gaps = report.gaps || state.step > before + 1 || motion.row(state.step).substeps > 1;
     before = state.step;
     const double time = static_cast<double>(state.step) * system.whole_step;
     const std::vector<Collider> colliders = system.colliders_at(time);

@@ -45,7 +45,7 @@ struct AuditReport {
   audit::MotionAudit findings;
   EnergyAudit energy;
   double duration = 0;          ///< time of the last state [s]
-  bool gaps = false;            ///< states are more than a step apart: paths between them are no steps
+  bool gaps = false;            ///< states are more than a step or substep apart: the paths between them are no steps
   std::string divergence = {};  ///< reason for an early end of the simulation; empty: none
   bool interrupted = false;
 
