@@ -375,7 +375,7 @@ bool touches(const Vertices& x, const Collider& collider) {
 
 /// Returns the direction towards the camera; one that follows the motion is placed for the start.
 Eigen::Vector3d towards_camera(const Scene& scene) {
-  if (!needs_motion(scene.camera)) return fixed_view(scene.camera).axes().row(2);
+  if (!needs_motion(scene.camera)) return fixed_view(scene.camera, scene.simulation.cloth.positions).axes().row(2);
   Framing framing(scene.camera, static_cast<double>(scene.video.size.x()) / scene.video.size.y());
   framing.add(scene.simulation.cloth.positions);
   return framing.view().axes().row(2);

@@ -25,7 +25,7 @@ View view_of(Camera camera, const PictureWishes& wishes, const Frame& frame, dou
   if (wishes.azimuth || wishes.elevation) camera.position.reset();
   camera.azimuth = wishes.azimuth.value_or(camera.azimuth.value_or(Camera::usual_azimuth));
   camera.elevation = wishes.elevation.value_or(camera.elevation.value_or(Camera::usual_elevation));
-  if (!needs_motion(camera)) return fixed_view(camera);
+  if (!needs_motion(camera)) return fixed_view(camera, frame.positions);
   Framing framing(camera, aspect);
   framing.add(frame.positions);
   for (const Collider& collider : frame.colliders) framing.add(collider);

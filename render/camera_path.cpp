@@ -177,7 +177,7 @@ KnownFilm without_unused(KnownFilm film) {
 }  // namespace
 
 CameraPath camera_path(const Camera& given, const KnownFilm& known) {
-  if (!needs_motion(given)) return turning(fixed_view(given), given, known.count);
+  if (!needs_motion(given)) return turning(fixed_view(given, known.start), given, known.count);
   const KnownFilm film = without_unused(known);
   const Camera camera = well_placed(given, film);
   if (!camera.position && (camera.follow || camera.orbit != 0)) return moving(camera, film);

@@ -103,9 +103,19 @@ View distant_view(const Camera& camera) {
 
 bool needs_motion(const Camera& camera) { return !camera.position || !camera.target; }
 
-View fixed_view(const Camera& camera) {
+View fixed_view(const Camera& camera, const Vertices& start) {
   if (needs_motion(camera)) throw std::invalid_argument("fixed_view() needs a camera with position and target");
-  return {*camera.position, *camera.target, camera.up, camera.field_of_view};
+  View view{*camera.position, *camera.target, camera.up, camera.field_of_view};
+  constexpr double room = 1.25;  // a target this near to the cloth stays
+  const Eigen::Vector3d forward = unit_vector(view.target - view.position);
+  const Eigen::ArrayXd depths = (start.rowwise() - view.position.transpose()) * forward;
+  if (camera.orbit != 0 || start.rows() == 0 || depths.maxCoeff() <= 0) return view;
+  const double nearest = std::max(0.0, depths.minCoeff()), farthest = depths.maxCoeff();
+  const double distance = (view.target - view.position).norm();
+  if (distance < nearest / room || distance > farthest * room) {
+    view.target = view.position + (nearest + farthest) / 2 * forward;
+  }
+  return view;
 }
 
 Framing::Framing(const Camera& camera, double aspect) : camera_(camera) {

@@ -154,7 +154,24 @@ TEST(View, NeedsTheMotionUnlessPositionAndTargetAreGiven) {
   EXPECT_TRUE(needs_motion(camera));
   camera.target = Eigen::Vector3d(0, 0, 0);
   EXPECT_FALSE(needs_motion(camera));
-  EXPECT_EQ(fixed_view(camera).position, *camera.position);
+  EXPECT_EQ(fixed_view(camera, {}).position, *camera.position);
+}
+
+TEST(View, IsTheSameWhereverOnItsAxisTheTargetLies) {
+  Camera camera;
+  camera.position = Eigen::Vector3d(0, -4, 1);
+  const auto view_with = [&](double share) {
+    camera.target = *camera.position + share * Eigen::Vector3d(0, 4, -1);
+    return fixed_view(camera, make_grid(4, 4).positions);  // 2 m wide, about the origin
+  };
+  EXPECT_EQ(view_with(1).target, *camera.target);
+  EXPECT_EQ(view_with(0.7).target, *camera.target);
+  EXPECT_EQ(view_with(1.5).target, *camera.target);
+  for (const double share : {0.01, 0.6, 1.6, 1e4}) {
+    EXPECT_LT(view_with(share).target.norm(), 1e-12) << share;  // the middle of the cloth
+  }
+  camera.orbit = 360;  // circles the target
+  EXPECT_EQ(view_with(0.01).target, *camera.target);
 }
 
 TEST(DepthRange, HoldsTheWholeFrame) {

@@ -49,9 +49,12 @@ View distant_view(const Camera& camera);
 /// Returns true if the camera's position or target must be computed from the motion.
 bool needs_motion(const Camera& camera);
 
-/// Returns the view of a camera for which needs_motion() is false.
+/// Returns the view of a camera for which needs_motion() is false. A target that only gives the direction, far in front
+/// of the cloth or behind it, is moved along the view to the cloth's middle, unless the camera circles it: shadows and
+/// a backdrop's floor are made for its distance.
+/// @param start the cloth at the scene's start, n×3 [m]
 /// @throws std::invalid_argument if needs_motion() is true
-View fixed_view(const Camera& camera);
+View fixed_view(const Camera& camera, const Vertices& start);
 
 /// Calls visit(center, radius) for balls whose convex hull contains the collider [m]. A mesh yields its vertices with
 /// radius 0, an infinite ground nothing.
