@@ -53,7 +53,7 @@ TEST(Fabrics, FollowFromThePublishedMeasurements) {
 }
 
 std::string sheet(std::string_view material, const std::string& more, const std::string& pattern) {
-  return "[cloth]\nmesh = { grid = [8, 8], pattern = \"" + pattern + "\" }\nmaterial = \"" + std::string(material) +
+  return "[cloth]\nmesh = { grid = [4, 4], pattern = \"" + pattern + "\" }\nmaterial = \"" + std::string(material) +
          "\"\n" + more;
 }
 
