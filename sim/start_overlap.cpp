@@ -215,7 +215,7 @@ std::string overlap_advice(const StartOverlap& overlap, const SimulationSettings
 }
 
 bool begins_too_near(const SimulationSettings& settings) {
-  constexpr double rounding = 1e-6;  // of the contact distance
+  constexpr double rounding = 1e-6;        // of the contact distance
   SimulationSettings implicit = settings;  // whose system has the contacts
   implicit.integrator = {.method = Method::quasi_newton};
   implicit.accuracy.reset();
