@@ -27,6 +27,14 @@ std::string key_text(const py::handle& key) {
 
 TomlValue value_of(decltype(TomlValue::data) data) { return {.place = nowhere, .data = std::move(data)}; }
 
+TomlValue to_whole(const py::handle& number, const std::string& name) {
+  try {
+    return value_of(number.cast<std::int64_t>());
+  } catch (const py::cast_error&) {
+    throw UsageError(name + ": the number is too large");
+  }
+}
+
 TomlValue to_table(const py::dict& dictionary, const std::string& name, int depth) {
   TomlTable table;
   for (const auto& [key, item] : dictionary) {
@@ -48,7 +56,7 @@ TomlValue to_array(const py::iterable& items, const std::string& name, int depth
 TomlValue to_toml(const py::handle& value, const std::string& name, int depth) {
   if (depth > static_cast<int>(most_nested_names)) throw py::type_error(name + " is nested deeper than any scene");
   if (py::isinstance<py::bool_>(value)) return value_of(value.cast<bool>());
-  if (py::isinstance<py::int_>(value)) return value_of(value.cast<std::int64_t>());
+  if (py::isinstance<py::int_>(value)) return to_whole(value, name);
   if (py::isinstance<py::float_>(value)) return value_of(value.cast<double>());
   if (py::isinstance<py::str>(value)) return value_of(value.cast<std::string>());
   if (py::isinstance<py::dict>(value)) return to_table(value.cast<py::dict>(), name, depth);

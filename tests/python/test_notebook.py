@@ -1,3 +1,4 @@
+import json
 import struct
 import zlib
 
@@ -77,10 +78,30 @@ def test_the_cloth_is_coloured_by_what_it_does(small):
         drape.film(simulation, 0.1, color_by="speed")
 
 
-@pytest.mark.parametrize("wrong", [{"fps": 0}, {"speed": -1}, {"seconds": -1}, {"seconds": float("nan")}])
-def test_a_film_that_cannot_be_is_refused(small, wrong):
-    with pytest.raises(drape.UsageError):
-        drape.film(drape.Simulation(small), **wrong)
+INFINITE, NAN = float("inf"), float("nan")
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{name: value} for name in ("fps", "speed") for value in (0, -1, INFINITE, NAN)]
+    + [{"seconds": -1}, {"seconds": NAN}, {"fps": 1e300}, {"speed": 1e-320}],
+)
+def test_a_film_that_cannot_be_is_refused_before_it_steps(small, wrong):
+    simulation = drape.Simulation(small)
+    with pytest.raises(drape.UsageError, match="^film: .*found|limit"):
+        drape.film(simulation, **wrong)
+    assert simulation.steps_taken == 0
+
+
+@pytest.mark.parametrize(
+    "fps, delay",
+    [(25, (1, 25)), (3.7, (10, 37)), (0.3, (10, 3)), (100, (1, 100)), (1e-6, (65535, 1)), (1e6, (1, 65535))],
+)
+def test_a_film_shows_each_frame_for_its_time(small, fps, delay):
+    simulation = drape.Simulation(small)
+    parts = chunks(drape.film(simulation, 0.4, fps=fps, speed=0.2 * fps, size=(16, 16)))
+    controls = [data for kind, data in parts if kind == b"fcTL"]
+    assert len(controls) == 3 and {struct.unpack(">HH", data[20:24]) for data in controls} == {delay}
 
 
 SCENE = (
@@ -105,6 +126,17 @@ def test_a_recorded_motion_is_that_of_a_simulation(tmp_path, monkeypatch, progra
         drape.load("m.toml")
 
 
+def test_a_motion_that_lacks_states_says_what_is_interpolated(tmp_path, monkeypatch, program, recwarn):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "m.toml").write_text(SCENE)
+    assert program("simulate", "m.toml", "-o", "all.drape").returncode == 0
+    drape.load("all.drape")
+    assert not recwarn.list
+    assert program("simulate", "m.toml", "--every", 7, "-o", "m.drape").returncode == 0
+    with pytest.warns(UserWarning, match="^m.drape: 8 frames .* interpolated$"):
+        assert len(drape.load("m.drape")) == 11
+
+
 def test_a_check_is_true_until_the_scene_changes(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "m.toml").write_text(SCENE)
@@ -122,6 +154,35 @@ def test_a_sweep_has_a_row_for_each_run(tmp_path, monkeypatch):
     assert {row["cloth.stiffness"] for row in rows} == {"40", "80"}
     with pytest.raises(drape.UsageError):
         drape.sweep("m.toml", vary={"cloth.stifness": [1]})
+
+
+def test_values_of_a_sweep_are_what_they_are_in_python(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "m.toml").write_text(SCENE)
+    texts = ["a,b", "5", "a b", 'say "x", y', "c:\\é\n\x7f", "true", "1..3/3", "liu13"]
+    rows = drape.sweep("m.toml", vary={"caption.text": texts}, set={"time.duration": np.float64(0.02)})
+    assert [json.loads(row["caption.text"]) for row in rows[:-1]] == texts[:-1]
+    assert rows[-1]["caption.text"] == "liu13"
+    rows = drape.sweep("m.toml", vary={"cloth.stiffness": np.array([40, 80])}, set={"time.duration": np.float32(0.25)})
+    assert [row["cloth.stiffness"] for row in rows] == ["40", "80"]
+    meshes = [{"grid": [2, 2]}, {"grid": np.array([3, 3])}]
+    assert len(drape.sweep("m.toml", vary={"cloth.mesh": meshes})) == 2
+    assert len(drape.sweep("m.toml", vary={"cloth.stiffness": "10..80/8"})) == 8
+    with pytest.raises(drape.UsageError, match="found inf"):
+        drape.sweep("m.toml", vary={"cloth.stiffness": [INFINITE]})
+    with pytest.raises(drape.UsageError, match="none.obj"):
+        drape.sweep("m.toml", vary={"cloth.mesh": [{"file": tmp_path / "none.obj"}]})
+    with pytest.raises(TypeError, match="expected a number"):
+        drape.check("m.toml", set={"cloth.stiffness": None})
+
+
+def test_a_sweep_keeps_its_table_when_a_run_diverges(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "m.toml").write_text(SCENE + '[integrator]\nmethod = "verlet"\nallow_unstable = true\n')
+    rows = drape.sweep("m.toml", vary={"cloth.stiffness": [20, 1e9]})
+    assert [row["outcome"] for row in rows] == ["completed", "diverged"]
+    with pytest.raises(drape.UsageError, match="stiffness"):  # which leaves the former table
+        drape.sweep("m.toml", vary={"cloth.stiffness": [20, -1]})
 
 
 def test_the_notebook_runs(tmp_path):

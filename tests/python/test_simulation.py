@@ -165,6 +165,11 @@ def test_errors_of_a_dictionary_name_the_key(swinging):
         drape.Simulation(swinging)
     with pytest.raises(TypeError, match="cloth.mass: expected a number.*found None"):
         drape.Simulation({"cloth": {"mass": None}})
+    for large in (2**63, -(2**63) - 1, np.uint64(2**63)):
+        with pytest.raises(drape.UsageError, match="^cloth.mesh.grid.1: the number is too large$"):
+            drape.Simulation({"cloth": {"mesh": {"grid": [4, large]}}})
+        with pytest.raises(drape.UsageError, match="^cloth.stiffness: the number is too large$"):
+            drape.Simulation(swinging, set={"cloth.stiffness": large})
     with pytest.raises(TypeError, match="expected a scene's file or a dictionary, found 3"):
         drape.Simulation(3)
 
