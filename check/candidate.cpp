@@ -178,7 +178,10 @@ std::vector<Candidate> find_candidates(const fs::path& report, const std::vector
   require_links_inside(report);
   std::vector<Candidate> all = listed_candidates(report);
   if (all.empty()) {
-    throw UsageError(fmt::format("{}: there is nothing to accept: this check found no scene changed", shown(report)));
+    throw UsageError(
+        fmt::format("{}: there is nothing to accept: this check found no scene changed, or ran with --set, "
+                    "whose results cannot be accepted: edit the scene and check it again",
+                    shown(report)));
   }
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.name < b.name; });
   if (wanted.empty()) return all;
@@ -187,8 +190,9 @@ std::vector<Candidate> find_candidates(const fs::path& report, const std::vector
   std::vector<std::string> names;
   for (const Candidate& candidate : all) names.push_back(candidate.name);
   for (const std::string& name : wanted) {
+    const fs::path normal = fs::path(name).lexically_normal();  // "./-a" is a way to give the name "-a"
     const auto found = std::find_if(all.begin(), all.end(), [&](const Candidate& candidate) {
-      return candidate.name == name || candidate.scene_file == name;
+      return normal == candidate.name || normal == candidate.scene_file.lexically_normal();
     });
     if (found == all.end()) {
       throw UsageError(fmt::format("{}: there is nothing to accept of '{}'{}", shown(report), shown(name),

@@ -298,7 +298,11 @@ std::string describe_motion(const std::vector<WindowResult>& windows) {
 
 void PlayedMotion::require_every_step(const LoadedScene& scene) const {
   const auto states = static_cast<std::int64_t>(reader_.states());
-  if (reader_.last_step() == scene.step_count() && states == scene.step_count() + 1) return;
+  if (reader_.last_step() != scene.step_count()) {
+    throw UsageError(fmt::format("{}: it ends after step {}, its scene after step {}: record it without --steps",
+                                 shown(scene.source.file), reader_.last_step(), scene.step_count()));
+  }
+  if (states == scene.step_count() + 1) return;
   throw UsageError(
       fmt::format("{}: it has {} states of {} steps, and a check needs all: give the frames' rate with fps, or record "
                   "the motion with --every 1",

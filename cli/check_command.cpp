@@ -138,7 +138,7 @@ class SceneChecker {
     const std::string file = shell_file(scene.source.file.string());
     result.rerun_command = "drape check " + file + command_options(arguments_) + scene_run_options(arguments_);
     if (result.has_candidate()) {
-      result.accept_command = accept_command(options_.artefacts) + " " + shell_word(result.name);
+      result.accept_command = accept_command(options_.artefacts) + " " + shell_file(result.name);
     } else if (arguments_.overrides.empty()) {
       result.accept_command = "drape bless " + file + backend_option(arguments_);
     }

@@ -335,7 +335,7 @@ void ResultPrinter::print(const std::string& line) {
 }
 
 std::string accept_command(const std::filesystem::path& report) {
-  return "drape accept " + shell_word(report.string());
+  return "drape accept " + shell_file(report.string());
 }
 
 void tell(const SceneResult& result, const CommonOptions& common, ResultPrinter& verdicts) {

@@ -272,7 +272,7 @@ ExitCode merge_checks(const std::vector<fs::path>& parts, const StudyFiles& to, 
   for (SceneResult& result : whole.scenes) {
     if (result.has_candidate()) {
       whole.accept_command = accept_command(folder);
-      result.accept_command = accept_command(folder) + " " + shell_word(result.name);
+      result.accept_command = accept_command(folder) + " " + shell_file(result.name);
     }
     tell(result, common, verdicts);
   }

@@ -61,7 +61,9 @@ std::string rounded(double value, double apart) {
     text = fmt::format("{:.{}g}", value, digits);
     if (std::abs(std::strtod(text.c_str(), nullptr) - value) <= 1e-3 * apart) break;
   }
-  return text;
+  const double number = std::strtod(text.c_str(), nullptr);
+  const bool whole = number == std::floor(number) && std::abs(number) < 1e12;
+  return whole ? fmt::format("{:.0f}", number) : text;  // a key for whole numbers takes no 2e+04
 }
 
 /// Returns the values of a range; nothing if the text does not start like one.

@@ -109,6 +109,23 @@ TEST_F(Accept, OnePictureLeavesTheOthersAlone) {
   expect_refused("accept out/check b --frames 7", "--frames: its golden has no frame 7");
 }
 
+TEST_F(Accept, ASceneWhoseNameBeginsWithADash) {
+  folder_.write("-c.toml", scene(""));
+  ASSERT_EQ(drape(folder_, "bless ./-c.toml").code, 0);
+  folder_.write("-c.toml", scene("color = \"red\"\n"));
+  ASSERT_EQ(drape(folder_, "check ./-c.toml --update none").code, 1);
+  const std::string page = test::content(folder_.path("out/check/report.html"));
+  EXPECT_NE(page.find("drape accept out/check ./-c --frames 5"), std::string::npos);
+  EXPECT_EQ(drape(folder_, "accept out/check ./-c --frames 5").code, 0);
+  for (const char* shard : {"1/2", "2/2"}) {
+    drape(folder_, std::string("check a.toml ./-c.toml --update none --report parts --shard ") + shard);
+  }
+  ASSERT_EQ(drape(folder_, "merge parts -o ./-r").code, 1);
+  EXPECT_NE(test::content(folder_.path("-r/report.json")).find("\"drape accept ./-r ./-c\""), std::string::npos);
+  EXPECT_EQ(drape(folder_, "accept ./-r ./-c").code, 0);
+  EXPECT_EQ(drape(folder_, "check ./-c.toml --update none").code, 0);
+}
+
 TEST_F(Accept, TheSameMotionOnly) {
   folder_.write("a.toml", scene("", 1.1));
   EXPECT_EQ(drape(folder_, "check a.toml --update none").code, 1);
@@ -163,7 +180,9 @@ TEST_F(Accept, NothingOfOtherValues) {
                 "it was checked with --set cloth.mass=1.1: to make that golden, edit the scene and check it again"),
             std::string::npos)
       << checked.text;
-  expect_refused("accept out/check", "out/check: there is nothing to accept");
+  expect_refused("accept out/check",
+                 "out/check: there is nothing to accept: this check found no scene changed, or ran with --set, whose "
+                 "results cannot be accepted: edit the scene and check it again");
   EXPECT_FALSE(fs::exists(folder_.path("out/check/a/candidate")));
 }
 

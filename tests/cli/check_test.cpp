@@ -159,7 +159,11 @@ TEST(CheckCommand, SaysWhatIsWrongWithItsOptions) {
   expect("bless swing.toml --frames 1000", "the film ends with frame 10");
   expect("check nowhere.toml", "nowhere.toml: no such file");
   EXPECT_EQ(drape(folder, "simulate swing.toml --steps 1 -o swing.drape").code, 0);
-  expect("check swing.drape", "swing.drape: it has 2 states of 20 steps, and a check needs all");
+  expect("check swing.drape", "swing.drape: it ends after step 1, its scene after step 20: record it without --steps");
+  EXPECT_EQ(drape(folder, "simulate swing.toml --steps 30 -o swing.drape").code, 0);
+  expect("check swing.drape", "swing.drape: it ends after step 30, its scene after step 20: record it without --steps");
+  EXPECT_EQ(drape(folder, "simulate swing.toml --every 4 -o swing.drape").code, 0);
+  expect("check swing.drape", "swing.drape: it has 6 states of 20 steps, and a check needs all");
   EXPECT_EQ(drape(folder, "bless swing.toml").code, 0);
   std::ofstream(folder.path() / "swing.golden/motion.bin", std::ios::binary) << "nonsense";
   expect("check swing.toml", "swing.golden/motion.bin: has been modified since it was recorded");

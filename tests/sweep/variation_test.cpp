@@ -24,6 +24,13 @@ TEST(Values, OfARangeHaveBothEnds) {
   EXPECT_EQ(parse_values("1e308..-1e308/5"), (Values{"1e+308", "5e+307", "0", "-5e+307", "-1e+308"}));
 }
 
+TEST(Values, OfARangeAreWholeNumbersWithoutExponent) {
+  EXPECT_EQ(parse_values("10000..30000/3"), (Values{"10000", "20000", "30000"}));
+  EXPECT_EQ(parse_values("-1e6..1e6/5"), (Values{"-1000000", "-500000", "0", "500000", "1000000"}));
+  EXPECT_EQ(parse_values("1e4..1e6/3log"), (Values{"10000", "100000", "1000000"}));
+  EXPECT_EQ(parse_values("1e12..3e12/3")[1], "2e+12");
+}
+
 TEST(Values, OfARangeHaveTheDigitsThatMeanSomething) {
   EXPECT_EQ(parse_values("10..400/5log"), (Values{"10", "25.15", "63.25", "159.1", "400"}));
   EXPECT_EQ(parse_values("1.23456789..2.23456789/3"), (Values{"1.23456789", "1.735", "2.23456789"}));
