@@ -558,6 +558,35 @@ double ContactSolver::work(const Vertices& x, bool converged) const {
   return work;
 }
 
+Eigen::RowVector3d ContactSolver::mean_drive(const Vertices& x) const {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  int count = 0;
+  for (const ContactConstraint& contact : contacts_) {
+    if (contact.with_obstacle()) {
+      sum -= contact.carried.transpose() / contact.weight();
+      ++count;
+    }
+    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
+      const int vertex = contact.vertices[i];
+      if (inverse_masses_[static_cast<Index>(vertex)] != 0) continue;
+      sum += x.row(vertex) - start_.row(vertex);
+      ++count;
+    }
+  }
+  return count == 0 ? sum : sum / count;
+}
+
+Eigen::RowVector3d ContactSolver::force_on_cloth(const Vertices& x) const {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (const ContactConstraint& contact : contacts_) {
+    const Eigen::Vector3d force = respond(contact, x).force;
+    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
+      if (inverse_masses_[static_cast<Index>(contact.vertices[i])] != 0) sum += contact.weights[i] * force.transpose();
+    }
+  }
+  return sum;
+}
+
 Eigen::Vector3d ContactSolver::way_of_pins(const ContactConstraint& contact, const Vertices& x) const {
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
   if (system_.pin_motions.empty()) return way;

@@ -63,6 +63,11 @@ class ContactSolver {
   /// near.
   [[nodiscard]] double work(const Vertices& x, bool converged) const;
 
+  /// Returns the mean way of what touches a cloth that ends at x, obstacles and pins [m].
+  [[nodiscard]] Eigen::RowVector3d mean_drive(const Vertices& x) const;
+  /// Returns the sum of the contacts' forces at x on free vertices [N].
+  [[nodiscard]] Eigen::RowVector3d force_on_cloth(const Vertices& x) const;
+
   /// Returns true if contacts stop a cloth from moving straight to `target`, or if it starts in contact.
   [[nodiscard]] bool is_blocked(const Vertices& target);
 

@@ -68,6 +68,7 @@ EnergyBalance::EnergyBalance(const System& system, const StepObjective& objectiv
 void EnergyBalance::begin(const State& state, const Vertices& last_end) {
   const double h = system_.step;
   state_ = &state;
+  frame_.setZero();
   start_kinetic_ = 0.5 * h * h * inner(system_.threads, objective_.free_inertia(), state.v, state.v);
   start_.value = objective_.inertial_value(state.x);
   start_exact_ = false;
@@ -112,8 +113,10 @@ bool EnergyBalance::adds(const Iterate& from, const Iterate& to, double tolerate
 }
 
 bool EnergyBalance::gains_much(const Iterate& point, double work) const {
-  const double given = std::max(0.0, work);
-  return gain(point) - given > much * (start_kinetic_ + given);
+  const double given = std::max(0.0, work), h = system_.step;
+  const auto relative = state_->v.rowwise() - frame_ / h;
+  const double kinetic = 0.5 * h * h * inner(system_.threads, objective_.free_inertia(), relative, relative);
+  return gain(point) - given > much * (kinetic + given);
 }
 
 void EnergyBalance::evaluate_start() {
@@ -127,7 +130,10 @@ void EnergyBalance::evaluate_start() {
 double EnergyBalance::gain(const Iterate& point) const {
   // With g written out: g(x') − g(x) = ΔK + ΔE − W + K − h⁻¹Δx·M v.
   const double along = system_.step * inner(system_.threads, objective_.free_inertia(), point.x - state_->x, state_->v);
-  return point.value - start_.value - start_kinetic_ + along;
+  const double at_rest = point.value - start_.value - start_kinetic_ + along;
+  if (frame_.isZero(0)) return at_rest;
+  // h v̄·Σ m(x' − y)/h² is v̄ times the change of momentum that the forces do not explain.
+  return at_rest - frame_.dot(objective_.free_inertia().transpose() * (point.x - objective_.y()));
 }
 
 double EnergyBalance::rounding(const Iterate& point) const {
@@ -158,6 +164,9 @@ double EnergyBalance::remove_gain(Iterate& point, bool touches, double allowed) 
   Vertices back = start_.x;
   if (is_free(system_) && !touches)
     back.rowwise() += mean(system_.cloth, objective_.y()) - mean(system_.cloth, start_.x);
+  for (Eigen::Index v = 0; v < back.rows() && !frame_.isZero(0); ++v) {
+    if (objective_.free_inertia()[v] > 0) back.row(v) += frame_;
+  }
   const Vertices way = point.x - back;
   Iterate trial{.x = point.x, .gradient = point.gradient};
   const auto gains_at = [&](double length) {

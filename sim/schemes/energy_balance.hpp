@@ -42,11 +42,15 @@ class EnergyBalance {
   /// Returns true if a change from one end of the step to another makes ΔK + ΔE − W positive, or more so, by more than
   /// is tolerated [J].
   [[nodiscard]] bool adds(const Iterate& from, const Iterate& to, double tolerated);
+  /// Measures all energies and works of this step in a frame that moves by `way` in it [m], as seen from which what is
+  /// carried along has little energy.
+  void follow(const Eigen::RowVector3d& way) { frame_ = way; }
   /// Returns true if ΔK + ΔE − W exceeds the work of moving obstacles [J], where that is positive, by a hundredth of it
   /// and of the kinetic energy at the start.
   [[nodiscard]] bool gains_much(const Iterate& point, double work) const;
   /// Moves a point that gains energy towards the start of the step until it gains no more than is allowed. Returns the
-  /// remaining fraction of the path. A free cloth moves towards its rigid translation instead.
+  /// remaining fraction of the path. A free cloth moves towards its rigid translation instead, and in a moving frame
+  /// towards the start carried along.
   /// @param touches true if contacts hold the cloth
   /// @param allowed [J]
   double remove_gain(Iterate& point, bool touches = false, double allowed = 0);
@@ -72,9 +76,10 @@ class EnergyBalance {
   Iterate start_;                 // x with the pins' final positions, with the value and gradient of g
   bool start_exact_ = false;      // false while start_ holds only a lower bound of g
   double start_kinetic_ = 0;      // ½‖v‖²_M [J]
-  double end_energy_ = 0;         // lower bound of E at the end of the last step [J]
-  bool steady_;                   // E at the start of a step equals E at the end of the last one
-  bool springs_;                  // E consists only of springs
+  Eigen::RowVector3d frame_ = Eigen::RowVector3d::Zero();  // see follow()
+  double end_energy_ = 0;                                  // lower bound of E at the end of the last step [J]
+  bool steady_;   // E at the start of a step equals E at the end of the last one
+  bool springs_;  // E consists only of springs
 };
 
 /// Returns the mass-weighted mean of n×3 numbers.

@@ -52,12 +52,15 @@ double BackwardEuler::shorten(bool held) {
   return balance_.remove_gain(point_, true);
 }
 
-double BackwardEuler::shorten_beside_moving(double work) {
+double BackwardEuler::shorten_beside_moving(double work, const Eigen::RowVector3d& force) {
   const Iterate end = point_;
-  const double part = balance_.remove_gain(point_, true, std::max(0.0, work));
-  // The obstacle may have moved beyond what stays behind.
-  if (!contact_->collides(point_.x)) return part;
-  point_ = end;
+  for (const Eigen::RowVector3d& way : {contact_->mean_drive(point_.x), Eigen::RowVector3d(0, 0, 0)}) {
+    balance_.follow(way);
+    const double part = balance_.remove_gain(point_, true, std::max(0.0, work - way.dot(force)));
+    // The obstacle may have moved beyond what stays behind.
+    if (!contact_->collides(point_.x)) return part;
+    point_ = end;
+  }
   static_cast<void>(contact_->touches(point_.x));
   return 1;
 }
@@ -82,11 +85,14 @@ void BackwardEuler::remove_gain(StepReport& report) {
     const double met = report.converged ? contact_->tolerance() : 0;
     const double work = contact_->work(point_.x, report.converged);
     const bool driven = contact_->driven(point_.x);
-    if (!balance_.gains_in_contact(point_, work, met, driven)) return;
+    const Eigen::RowVector3d force = contact_->force_on_cloth(point_.x);
+    const Eigen::RowVector3d way = driven ? contact_->mean_drive(point_.x) : Eigen::RowVector3d(0, 0, 0);
+    balance_.follow(way);
+    if (!balance_.gains_in_contact(point_, work - way.dot(force), met, driven)) return;
     if (!driven) {
       report.kept = shorten(contact_->touches_obstacles());
-    } else if (balance_.gains_much(point_, work)) {
-      report.kept = shorten_beside_moving(work);
+    } else if (balance_.gains_much(point_, work - way.dot(force))) {
+      report.kept = shorten_beside_moving(work, force);
     }
   } else {
     // The minimiser has checked a step that ended by small changes, unless it was just moved.
@@ -241,13 +247,34 @@ StepReport Sdirk2::advance_freely(State& state, StepForces& forces) {
   return report;
 }
 
+namespace {
+
+/// Returns the mean velocity of its piece's pins for each vertex, 0 without pins, n×3 [m/s].
+Vertices pin_velocities(const Cloth& cloth, const Vertices& v) {
+  Vertices mean = Vertices::Zero(v.rows(), 3);
+  const auto fill = [&](Eigen::Index first, Eigen::Index count) {
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    int pins = 0;
+    for (const int pin : cloth.pins) {
+      if (pin < first || pin >= first + count) continue;
+      sum += v.row(pin);
+      ++pins;
+    }
+    if (pins > 0) mean.middleRows(first, count).rowwise() = (sum / pins).eval();
+  };
+  if (cloth.pieces.empty()) fill(0, v.rows());
+  for (const ClothPiece& piece : cloth.pieces) fill(piece.first_vertex, piece.vertex_count);
+  return mean;
+}
+
+}  // namespace
+
 bool Sdirk2::filters_gain(const State& state) {
-  // Relative to the pins, so that a limit's pull by moving pins is no gain.
-  Eigen::RowVector3d frame = Eigen::RowVector3d::Zero();
-  for (const int pin : system_.cloth.pins) frame += state.v.row(pin) / static_cast<double>(system_.cloth.pins.size());
+  // Relative to its pins, so that the pull of a limit at moving pins is no gain.
   const double h = objective_.duration();
+  const Vertices pins = pin_velocities(system_.cloth, state.v);
   const auto kinetic = [&](const Vertices& v) {
-    return 0.5 * h * h * objective_.free_inertia().dot((v.rowwise() - frame).rowwise().squaredNorm());
+    return 0.5 * h * h * objective_.free_inertia().dot((v - pins).rowwise().squaredNorm());
   };
   limited_.x = state.x;
   limited_.value = objective_.evaluate(limited_.x, limited_.gradient);

@@ -174,8 +174,10 @@ class BackwardEuler final : public MinimisingScheme {
   /// Shortens the step until it gains no energy, along a path free of collisions. Returns the remaining fraction.
   /// @param held true if contacts hold the cloth
   double shorten(bool held);
-  /// Does so in contact with moving obstacles, which may do this work [J], unless they would move into the cloth.
-  double shorten_beside_moving(double work);
+  /// Does so in contact with moving obstacles or pins, unless they would move into the cloth.
+  /// @param work  that they may do [J]
+  /// @param force of all contacts [N]
+  double shorten_beside_moving(double work, const Eigen::RowVector3d& force);
 
   /// Shortens a solved step that gains energy, and reports it as not converged.
   void remove_gain(StepReport& report);
