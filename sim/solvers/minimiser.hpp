@@ -34,7 +34,11 @@ class Minimiser {
   Minimiser& operator=(const Minimiser&) = delete;
 
   /// Stores the error at the start of a step for its tolerance, see Accuracy.
-  void begin_step(const Iterate& point) { start_error_ = objective_.error_bound(point.gradient); }
+  void begin_step(const Iterate& point) {
+    start_error_ = objective_.error_bound(point.gradient);
+    newton_error_ = std::numeric_limits<double>::infinity();
+    tolerance_ = accuracy_.tolerance;
+  }
 
   /// Moves the point, given with g's value and gradient, until the stopping rule is met. g never rises beyond rounding.
   /// @param may_end called after a small iteration; returns true if the point is acceptable
@@ -93,7 +97,7 @@ class Minimiser {
   Iterate trial_;
   double least_error_ = 0;               // least error of this minimisation, with the error rule [m]
   int iterations_without_progress_ = 0;  // number of points since the least error
-  double newton_error_ = 0;              // by the last Newton step of an iteration
+  double newton_error_ = std::numeric_limits<double>::infinity();  // by the last Newton step of an iteration [m]
 };
 
 }  // namespace drape

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "drape/sim/effects/bending.hpp"
+#include "drape/sim/effects/moving_pins.hpp"
 #include "drape/sim/effects/self_collision.hpp"
 #include "drape/sim/effects/strain_limit.hpp"
 #include "tests/cloths/panels.hpp"
@@ -45,6 +46,24 @@ TEST_P(OfEveryMethod, TwoCopiesFarApartMoveAsOneAlone) {
   const double tolerance = GetParam().is_explicit() ? 1e-12 : 1e-6;
   EXPECT_LT((both.state().x.topRows(n) - alone.state().x).cwiseAbs().maxCoeff(), tolerance);
   EXPECT_LT(((both.state().x.bottomRows(n).rowwise() - far) - alone.state().x).cwiseAbs().maxCoeff(), tolerance);
+}
+
+// One hangs at its strain limit, and all of the other is carried away.
+TEST_P(OfEveryMethod, PinsOfAnotherClothChangeNothing) {
+  Cloth hanging = panel(6, 6, {0.8, 0.8}, {0, 0, 0}), other = panel(2, 2, {0.3, 0.3}, {5, 0, 0});
+  hanging.pins = {42, 43, 44, 45, 46, 47, 48};
+  const Eigen::Index n = hanging.positions.rows();
+  for (int i = 0; i < other.positions.rows(); ++i) other.pins.push_back(i);
+  const auto moved_to = [&](double depth) {
+    const Cloth both = joined({hanging, other});
+    SimulationSettings settings = exactly(both, GetParam(), 0.01, {Gravity{}, StrainLimit{.max_stretch = 1.02}});
+    const std::vector<int> pins(both.pins.begin() + 7, both.pins.end());
+    settings.effects.add(MovingPins{.pins = pins, .keyframes = {{.time = 1, .value = {0, 0, -depth}}}});
+    Simulation simulation(settings);
+    run(simulation, 40);
+    return Vertices(simulation.state().x.topRows(n));
+  };
+  EXPECT_LT((moved_to(5) - moved_to(0)).cwiseAbs().maxCoeff(), GetParam().is_explicit() ? 1e-12 : 1e-4);
 }
 
 TEST(SeveralCloths, AnEffectActsOnItsClothOnly) {
