@@ -249,9 +249,9 @@ StepReport Sdirk2::advance_freely(State& state, StepForces& forces) {
 
 namespace {
 
-/// Returns the mean velocity of its piece's pins for each vertex, 0 without pins, n×3 [m/s].
-Vertices pin_velocities(const Cloth& cloth, const Vertices& v) {
-  Vertices mean = Vertices::Zero(v.rows(), 3);
+/// Finds the mean velocity of its piece's pins for each vertex, 0 without pins, n×3 [m/s].
+void find_pin_velocities(const Cloth& cloth, const Vertices& v, Vertices& mean) {
+  mean.setZero(v.rows(), 3);
   const auto fill = [&](Eigen::Index first, Eigen::Index count) {
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
     int pins = 0;
@@ -264,7 +264,6 @@ Vertices pin_velocities(const Cloth& cloth, const Vertices& v) {
   };
   if (cloth.pieces.empty()) fill(0, v.rows());
   for (const ClothPiece& piece : cloth.pieces) fill(piece.first_vertex, piece.vertex_count);
-  return mean;
 }
 
 }  // namespace
@@ -272,9 +271,9 @@ Vertices pin_velocities(const Cloth& cloth, const Vertices& v) {
 bool Sdirk2::filters_gain(const State& state) {
   // Relative to its pins, so that the pull of a limit at moving pins is no gain.
   const double h = objective_.duration();
-  const Vertices pins = pin_velocities(system_.cloth, state.v);
+  find_pin_velocities(system_.cloth, state.v, pin_velocities_);
   const auto kinetic = [&](const Vertices& v) {
-    return 0.5 * h * h * objective_.free_inertia().dot((v - pins).rowwise().squaredNorm());
+    return 0.5 * h * h * objective_.free_inertia().dot((v - pin_velocities_).rowwise().squaredNorm());
   };
   limited_.x = state.x;
   limited_.value = objective_.evaluate(limited_.x, limited_.gradient);

@@ -264,6 +264,7 @@ class Sdirk2 final : public MinimisingScheme {
   bool by_euler_ = false;               // true if it took the last step
   bool gained_ = false;                 // see filters_gain()
   Iterate limited_ = point_;            // end of a step after the filters
+  Vertices pin_velocities_ = point_.x;  // of each vertex's piece, at the end of a step [m/s]
   State before_;
 };
 
