@@ -164,8 +164,10 @@ double EnergyBalance::remove_gain(Iterate& point, bool touches, double allowed) 
   Vertices back = start_.x;
   if (is_free(system_) && !touches)
     back.rowwise() += mean(system_.cloth, objective_.y()) - mean(system_.cloth, start_.x);
-  for (Eigen::Index v = 0; v < back.rows() && !frame_.isZero(0); ++v) {
-    if (objective_.free_inertia()[v] > 0) back.row(v) += frame_;
+  if (!frame_.isZero(0)) {
+    for (Eigen::Index v = 0; v < back.rows(); ++v) {
+      if (objective_.free_inertia()[v] > 0) back.row(v) += frame_;
+    }
   }
   const Vertices way = point.x - back;
   Iterate trial{.x = point.x, .gradient = point.gradient};

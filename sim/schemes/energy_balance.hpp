@@ -32,7 +32,7 @@ class EnergyBalance {
   /// Returns true if ΔK + ΔE − W at the point, minus the work of the contacts, exceeds rounding and the tolerated gain.
   /// With a given tolerance for errors, that is the work of their forces. By default it is the energy of displacements
   /// within the tolerance, ½ Σ m/h² δ², which does not grow with the speed, as default tolerances in contact are large.
-  /// Where obstacles or pins move the cloth, it is also the work of errors in their forces.
+  /// Obstacles or pins that move the cloth add the work of errors in their forces.
   /// @param work of the contacts [J] @param tolerance δ of the solve, 0 if it is not met [m]
   /// @param driven true if obstacles or pins move the cloth
   [[nodiscard]] bool gains_in_contact(const Iterate& point, double work, double tolerance, bool driven);

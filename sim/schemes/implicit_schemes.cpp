@@ -52,11 +52,12 @@ double BackwardEuler::shorten(bool held) {
   return balance_.remove_gain(point_, true);
 }
 
-double BackwardEuler::shorten_beside_moving(double work, const Eigen::RowVector3d& force) {
+double BackwardEuler::shorten_beside_moving(double work, const Eigen::RowVector3d& way,
+                                            const Eigen::RowVector3d& force) {
   const Iterate end = point_;
-  for (const Eigen::RowVector3d& way : {contact_->mean_drive(point_.x), Eigen::RowVector3d(0, 0, 0)}) {
-    balance_.follow(way);
-    const double part = balance_.remove_gain(point_, true, std::max(0.0, work - way.dot(force)));
+  for (const Eigen::RowVector3d& frame : {way, Eigen::RowVector3d(0, 0, 0)}) {
+    balance_.follow(frame);
+    const double part = balance_.remove_gain(point_, true, std::max(0.0, work - frame.dot(force)));
     // The obstacle may have moved beyond what stays behind.
     if (!contact_->collides(point_.x)) return part;
     point_ = end;
@@ -84,15 +85,15 @@ void BackwardEuler::remove_gain(StepReport& report) {
   if (touched_) {
     const double met = report.converged ? contact_->tolerance() : 0;
     const double work = contact_->work(point_.x, report.converged);
-    const bool driven = contact_->driven(point_.x);
-    const Eigen::RowVector3d force = contact_->force_on_cloth(point_.x);
-    const Eigen::RowVector3d way = driven ? contact_->mean_drive(point_.x) : Eigen::RowVector3d(0, 0, 0);
-    balance_.follow(way);
-    if (!balance_.gains_in_contact(point_, work - way.dot(force), met, driven)) return;
-    if (!driven) {
+    if (!contact_->driven(point_.x)) {
+      if (!balance_.gains_in_contact(point_, work, met, false)) return;
       report.kept = shorten(contact_->touches_obstacles());
-    } else if (balance_.gains_much(point_, work - way.dot(force))) {
-      report.kept = shorten_beside_moving(work, force);
+    } else {
+      const Eigen::RowVector3d way = contact_->mean_drive(point_.x), force = contact_->force_on_cloth(point_.x);
+      const double relative = work - way.dot(force);
+      balance_.follow(way);
+      if (!balance_.gains_in_contact(point_, relative, met, true)) return;
+      if (balance_.gains_much(point_, relative)) report.kept = shorten_beside_moving(work, way, force);
     }
   } else {
     // The minimiser has checked a step that ended by small changes, unless it was just moved.

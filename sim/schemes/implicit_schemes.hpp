@@ -176,8 +176,9 @@ class BackwardEuler final : public MinimisingScheme {
   double shorten(bool held);
   /// Does so in contact with moving obstacles or pins, unless they would move into the cloth.
   /// @param work  that they may do [J]
+  /// @param way   mean way of obstacles and pins [m]
   /// @param force of all contacts [N]
-  double shorten_beside_moving(double work, const Eigen::RowVector3d& force);
+  double shorten_beside_moving(double work, const Eigen::RowVector3d& way, const Eigen::RowVector3d& force);
 
   /// Shortens a solved step that gains energy, and reports it as not converged.
   void remove_gain(StepReport& report);

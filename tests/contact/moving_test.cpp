@@ -17,6 +17,17 @@ namespace {
 class Moving : public Solved {};
 INSTANTIATE_TEST_SUITE_P(With, Moving, testing::ValuesIn(contact_methods), method_name);
 
+/// Makes a square that is turned about the x axis, then about the y axis [rad].
+Mesh tilted_square(double side, int cells, double about_x, double about_y, double height) {
+  Mesh mesh = level_square(side, cells, 0);
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(about_x, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(about_y, Eigen::Vector3d::UnitY()))
+          .toRotationMatrix();
+  mesh.positions = (mesh.positions * turn).eval();
+  mesh.positions.col(2).array() += height;
+  return mesh;
+}
+
 // A step that does not converge may not take energy from an obstacle that hardly moves.
 TEST_P(Moving, ASlowObstacleGivesNoEnergyToUnsolvedSteps) {
   for (const double speed : {0.0, 1e-9}) {
@@ -45,12 +56,7 @@ TEST_P(Moving, ASlowObstacleGivesNoEnergyToUnsolvedSteps) {
 TEST_P(Moving, UnsolvedStepsGainNoMoreInAFrameThatMoves) {
   if (is_explicit(GetParam().method)) GTEST_SKIP() << "explicit methods do not iterate";
   for (const double speed : {0.0, 10.0, 40.0}) {
-    Mesh mesh = level_square(0.8, 7, 0);
-    mesh.positions = (mesh.positions * (Eigen::AngleAxisd(0.26, Eigen::Vector3d::UnitX()) *
-                                        Eigen::AngleAxisd(0.44, Eigen::Vector3d::UnitY()))
-                                           .toRotationMatrix())
-                         .eval();
-    mesh.positions.col(2).array() += 0.35;
+    const Mesh mesh = tilted_square(0.8, 7, 0.26, 0.44, 0.35);
     SimulationSettings s = settings(make_cloth(mesh, mesh, 0.2, 2000, {}), 0.01);
     s.integrator.max_iterations = 4;
     s.cloth.velocities.col(0).setConstant(speed);
@@ -178,12 +184,7 @@ TEST_P(Moving, PinsPullClothAtItsStrainLimit) {
 
 // A box flies through a sheet's place: the sheet is taken along, whatever its vertices do to each other.
 TEST_P(Moving, ABodyTakesClothAlongThatTouchesItself) {
-  Mesh mesh = level_square(0.8, 8, 0);
-  mesh.positions = (mesh.positions * (Eigen::AngleAxisd(0.17, Eigen::Vector3d::UnitX()) *
-                                      Eigen::AngleAxisd(0.09, Eigen::Vector3d::UnitY()))
-                                         .toRotationMatrix())
-                       .eval();
-  mesh.positions.col(2).array() += 0.6;
+  const Mesh mesh = tilted_square(0.8, 8, 0.17, 0.09, 0.6);
   SimulationSettings s = settings(make_cloth(mesh, mesh, 0.2, 50, {}), 0.005);
   Body box = solved_box({0.3, 0.3, 0.1}, 0.05);
   box.velocity = Eigen::Vector3d(0, 0, 1);

@@ -95,40 +95,40 @@ TEST_P(SecondOrder, HoldsForAClothThatSwingsAsAPendulum) {
   expect_second(orders(settings, exact, duration, 400));
 }
 
-// Air drag grows with the square of the speed, and bends a cloth that swings back.
-TEST_P(SecondOrder, HoldsForAir) {
+/// Expects second order beside a motion in 10 000 steps of velocity Verlet.
+void expect_second_beside_verlet(const SimulationSettings& settings) {
   constexpr double duration = 0.8;
-  SimulationSettings settings = pendulum(GetParam());
-  settings.effects.add(drape::Air{.velocity = {0.3, -4, 0}, .gusts = {.speed = 0.5}});
   SimulationSettings fine = settings;
   fine.integrator.method = Method::verlet;
   const State exact = run(fine, duration, 10'000);
   expect_second(orders(settings, exact, duration, 400));
+}
+
+/// Moves the pins of pendulum().
+drape::MovingPins smooth_pins() {
+  return {.pins = {20, 21, 22, 23, 24},
+          .keyframes = {{0, {0, 0, 0}}, {1, {0.2, 0.4, 0.3}}},
+          .interpolation = Interpolation::smooth};
+}
+
+// Air drag grows with the square of the speed, and bends a cloth that swings back.
+TEST_P(SecondOrder, HoldsForAir) {
+  SimulationSettings settings = pendulum(GetParam());
+  settings.effects.add(drape::Air{.velocity = {0.3, -4, 0}, .gusts = {.speed = 0.5}});
+  expect_second_beside_verlet(settings);
 }
 
 TEST_P(SecondOrder, HoldsForPinsThatMoveSmoothly) {
-  constexpr double duration = 0.8;
   SimulationSettings settings = pendulum(GetParam());
-  settings.effects.add(drape::MovingPins{.pins = {20, 21, 22, 23, 24},
-                                         .keyframes = {{0, {0, 0, 0}}, {1, {0.2, 0.4, 0.3}}},
-                                         .interpolation = Interpolation::smooth});
-  SimulationSettings fine = settings;
-  fine.integrator.method = Method::verlet;
-  const State exact = run(fine, duration, 10'000);
-  expect_second(orders(settings, exact, duration, 400));
+  settings.effects.add(smooth_pins());
+  expect_second_beside_verlet(settings);
 }
 
 TEST_P(SecondOrder, HoldsForAirOnPinsThatMoveSmoothly) {
-  constexpr double duration = 0.8;
   SimulationSettings settings = pendulum(GetParam());
   settings.effects.add(drape::Air{.velocity = {0.3, -4, 0}});
-  settings.effects.add(drape::MovingPins{.pins = {20, 21, 22, 23, 24},
-                                         .keyframes = {{0, {0, 0, 0}}, {1, {0.2, 0.4, 0.3}}},
-                                         .interpolation = Interpolation::smooth});
-  SimulationSettings fine = settings;
-  fine.integrator.method = Method::verlet;
-  const State exact = run(fine, duration, 10'000);
-  expect_second(orders(settings, exact, duration, 400));
+  settings.effects.add(smooth_pins());
+  expect_second_beside_verlet(settings);
 }
 
 class SecondOrderPush : public testing::TestWithParam<NamedMethod> {};
