@@ -195,7 +195,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
   std::optional<SelectableMesh> selectable;
   if (start) selectable = selectable_mesh(*start, *table.mesh, folder);
   std::vector<int> pins;
-  if (table.pins != nullptr) pins = read_pins(*table.pins, selectable ? &*selectable : nullptr, problems);
+  if (table.pins != nullptr) pins = read_vertices(*table.pins, "pins", selectable ? &*selectable : nullptr, problems);
   const std::optional<Eigen::Vector3d> scale = read_scale(table.scale, problems);
   check_said_once(table, value, problems);
   check_springs(table, value, problems);
@@ -345,14 +345,15 @@ class PinReader {
 
 }  // namespace
 
-std::vector<int> read_pins(const TomlValue& value, const SelectableMesh* mesh, Problems& problems) {
+std::vector<int> read_vertices(const TomlValue& value, const std::string& name, const SelectableMesh* mesh,
+                               Problems& problems) {
   const TomlArray* items = value.as<TomlArray>();
   if (items == nullptr) {
-    problems.add(value.place, "pins: expected an array, found " + value.kind());
+    problems.add(value.place, name + ": expected an array, found " + value.kind());
     return {};
   }
   PinReader reader(mesh, problems);
-  for (std::size_t i = 0; i < items->size(); ++i) reader.read((*items)[i], fmt::format("pins[{}]", i));
+  for (std::size_t i = 0; i < items->size(); ++i) reader.read((*items)[i], fmt::format("{}[{}]", name, i));
   return std::move(reader).pins();
 }
 

@@ -35,9 +35,11 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
 /// Reads an array of vertices. Items are numbers from 0; "corner:x-y+", the vertex farthest in that direction (the
 /// first of several); "edge:x-", all vertices farthest in that direction; "border", the border of the mesh; and tables
 /// that select at least one vertex, see read_selection().
+/// @param name of the key, for messages
 /// @param mesh null if it could not be read: then only the forms are checked
 /// @returns vertices, ascending and unique
-std::vector<int> read_pins(const TomlValue& value, const SelectableMesh* mesh, Problems& problems);
+std::vector<int> read_vertices(const TomlValue& value, const std::string& name, const SelectableMesh* mesh,
+                               Problems& problems);
 
 /// Makes the seam that a [seam] table describes. The vertices of each side form an open path along the edges of its
 /// cloth. Both are measured by their length in the rest shape, from 0 to 1. Each vertex of the side with more vertices

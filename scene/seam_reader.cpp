@@ -57,7 +57,7 @@ class SeamReader {
     if (along == nullptr) problems_.add(value.place, name + ": 'along' is missing, the vertices of the side");
     if (mesh == nullptr || along == nullptr) return std::nullopt;
     const Index before = problems_.count();
-    std::vector<int> selected = read_pins(*along, &mesh->mesh, problems_);
+    std::vector<int> selected = read_vertices(*along, name + ".along", &mesh->mesh, problems_);
     if (problems_.count() != before) return std::nullopt;
     for (int& vertex : selected) vertex += mesh->first_vertex;
     return path_of(selected, along->place, name);

@@ -164,7 +164,7 @@ class VertexSelectionKind final : public DescribedKind<VertexSelection> {
     const PlacedSelection* mesh = selected_cloth(given);
     if (given.problems.count() != before) return;
     std::vector<int>& vertices = *target(given.key).vertices;
-    vertices = read_pins(given.value, mesh == nullptr ? nullptr : &mesh->mesh, given.problems);
+    vertices = read_vertices(given.value, given.key.name, mesh == nullptr ? nullptr : &mesh->mesh, given.problems);
     if (mesh == nullptr) return;
     for (int& vertex : vertices) vertex += mesh->first_vertex;
   }

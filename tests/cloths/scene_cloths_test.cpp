@@ -157,6 +157,8 @@ TEST(SceneSeams, WrongOnesAreOneMessageEach) {
             "scene.toml:12:15: a: unknown cloth 'c'; did you mean 'a'?");
   EXPECT_EQ(folder.problems(sewn(b + "a = { cloth = \"a\" }")),
             "scene.toml:12:5: a: 'along' is missing, the vertices of the side");
+  EXPECT_EQ(folder.problems(sewn(b + "a = { cloth = \"a\", along = \"edge:x+\" }")),
+            "scene.toml:12:28: a.along: expected an array, found a string");
   EXPECT_EQ(folder.problems(sewn(b + "a = { cloth = \"a\", along = [\"border\"] }")),
             "scene.toml:12:28: a: expected vertices in one open row along edges, found 14 that are not");
   EXPECT_EQ(folder.problems(sewn(b + "a = { cloth = \"a\", along = [14, 19], time = 1 }")),
