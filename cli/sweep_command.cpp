@@ -89,6 +89,16 @@ ExitCode report_again(const SweepArguments& arguments, const CommonOptions& comm
   require_links_inside(arguments.folder);
   std::optional<SweepFile> file = read_sweep_file(arguments.folder);
   if (!file) throw UsageError(fmt::format("{}: contains no sweep", arguments.folder));
+  const auto file_names = [](const std::vector<std::string>& scenes) {
+    std::vector<std::filesystem::path> files(scenes.begin(), scenes.end());
+    for (std::filesystem::path& name : files) name = name.filename();
+    return files;
+  };
+  const std::vector<std::string> given = complete_request(arguments).scenes;
+  if (!given.empty() && file_names(given) != file_names(file->plan.request.scenes)) {
+    throw UsageError(fmt::format("--report-only: {} contains another sweep: {}", shown(arguments.folder),
+                                 shown(command_of(file->plan.request))));
+  }
   return conclude_sweep(read_results(arguments.folder, std::move(*file)), arguments.folder, arguments.style, common);
 }
 

@@ -26,9 +26,11 @@ std::vector<std::string> split_at_commas(const std::string& text) {
   std::vector<std::string> values(1);
   int depth = 0;
   char quote = 0;
+  bool escaped = false;  // a backslash precedes, in a string that has escapes
   for (const char c : text) {
     if (quote != 0) {
-      if (c == quote) quote = 0;
+      if (c == quote && !escaped) quote = 0;
+      escaped = quote == '"' && c == '\\' && !escaped;
     } else if (c == '"' || c == '\'') {
       quote = c;
     } else if (c == '[' || c == '{') {

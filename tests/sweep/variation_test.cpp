@@ -14,6 +14,9 @@ TEST(Values, AreSplitAtCommasOutsideOfBracketsAndQuotes) {
   EXPECT_EQ(parse_values("liu13,implicit"), (Values{"liu13", "implicit"}));
   EXPECT_EQ(parse_values("{ grid = [4, 4] },{ grid = [8, 8] }"), (Values{"{ grid = [4, 4] }", "{ grid = [8, 8] }"}));
   EXPECT_EQ(parse_values("\"a,b\",c"), (Values{"\"a,b\"", "c"}));
+  EXPECT_EQ(parse_values(R"("a\"b,c",d)"), (Values{R"("a\"b,c")", "d"}));
+  EXPECT_EQ(parse_values(R"("a\\",b)"), (Values{R"("a\\")", "b"}));
+  EXPECT_EQ(parse_values(R"('a\',b)"), (Values{R"('a\')", "b"}));
 }
 
 TEST(Values, OfARangeHaveBothEnds) {
