@@ -13,29 +13,25 @@ namespace {
 using Index = std::size_t;
 
 constexpr double relative_stiffness = 10;     // κ, in multiples of the stiffness of a contact's vertices
-constexpr double newton_stiffness = 20;       // κ with Newton's Hessian, whose factor bears more
 constexpr double weld_stiffness = 100;        // κ of a weld, likewise; it never opens
-constexpr double length_stiffness = 100;      // κ of an edge at its strain limit, likewise
+constexpr double length_stiffness = 100;      // κ of an edge at its strain limit or of a rope, likewise
 constexpr double length_share = 0.5;          // largest gap of a length in the solve, relative to the allowed one
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
 constexpr double shortest_move = 1e-6;        // least step length along a direction
 constexpr double share_of_change = 0.01;      // tolerance, relative to the largest displacement by forces
 constexpr double begins_on = 0.01;            // largest gap at the start of a contact, relative to the distance
 constexpr double share_of_way = 1e-6;         // least tolerance, relative to the largest displacement
-constexpr double contact_share = 0.1;         // limit of gaps and slips, relative to the tolerance, as κ is large
-constexpr double linear_tolerance = 0.05;     // of conjugate gradients, in the preconditioner's norm
+constexpr double gap_share = 0.2;          // limit of gaps, relative to that of slips, as κ makes large forces of them
+constexpr double linear_tolerance = 0.05;  // of conjugate gradients, in the preconditioner's norm
 constexpr int most_linear_iterations = 300;
 constexpr double least_held = 0.1;       // fraction of κ from which a direction counts as constrained
 constexpr double worth_an_update = 0.5;  // largest move, as a fraction of the slack, at which multipliers change
 constexpr std::size_t depth = 3;         // of the acceleration of multipliers
-constexpr int plain_updates = 6;  // before it begins: most steps need no more, and acceleration takes longer there
-constexpr double fast = 0.5;      // gradient norm ratio of iterations above which the full Hessian is used
+constexpr int plain_updates = 10;  // before it begins: most steps need no more, and acceleration takes longer there
+constexpr double fast = 0.5;       // gradient norm ratio of iterations above which the full Hessian is used
 constexpr double least_damping = 1.0 / 256, damping_growth = 4;
 constexpr int most_halvings = 40, most_rounds = 50;
 constexpr int most_useful = 150;  // iterations; a step that needs more rarely converges
-
-/// Returns κ relative to the stiffness of a contact's vertices.
-double stiffness_ratio(bool exact) { return exact ? newton_stiffness : relative_stiffness; }
 
 double longest(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }
 
@@ -127,7 +123,7 @@ bool ContactSolver::touches(const Vertices& target) {
 bool ContactSolver::is_blocked(const Vertices& target) {
   find(target, true);
   return std::ranges::any_of(contacts_, [&](const ContactConstraint& contact) {
-    if (contact.law == ContactLaw::length) return false;
+    if (contact.law == ContactLaw::length && !contact.sews) return false;
     const double lies = (1 + begins_on) * contact.distance;
     return contact.collides || contact.welds || contact.place(target).dot(contact.normal) < contact.distance ||
            contact.start.dot(contact.normal) < lies;
@@ -196,7 +192,7 @@ void ContactSolver::set_stiffness(const ContactProblem& problem) {
     }
     const double ratio = contact.welds                       ? weld_stiffness
                          : contact.law == ContactLaw::length ? length_stiffness
-                                                             : stiffness_ratio(problem.exact());
+                                                             : relative_stiffness;
     contact.stiffness = ratio / compliance;
   }
 }
@@ -253,13 +249,21 @@ ContactSolver::Response ContactSolver::respond(const ContactConstraint& contact,
       response.stiffness += k * radius / size * (across - along * along.transpose());
     }
   }
-  response.residual = (response.force - contact.force).norm() / k;
+  const Eigen::Vector3d change = response.force - contact.force;
+  const double along = change.dot(n);
+  response.residual = std::max(std::abs(along), gap_share * (change - along * n).norm()) / k;
   return response;
 }
 
 void ContactSolver::find_radii(const Vertices& x, bool all) {
   for (ContactConstraint& contact : contacts_) {
     if (!all && contact.radius >= 0) continue;
+    // The first depth of features that meet in the step says little of their force.
+    const bool meets = contact.start.dot(contact.normal) > (1 + begins_on) * contact.distance;
+    if (!all && meets && contact.force.isZero(0)) {
+      contact.radius = 0;
+      continue;
+    }
     const double gap = contact.place(x).dot(contact.normal) - contact.distance - contact.beyond;
     contact.radius = contact.friction * std::max(0.0, contact.force.dot(contact.normal) - contact.stiffness * gap);
   }
@@ -274,7 +278,7 @@ ContactSolver::PointStatus ContactSolver::assess(const ContactProblem& problem, 
     contacts_[k].scatter(-responses_[k].force, gradient_);
     now.value += responses_[k].energy;
     const double residual = responses_[k].residual;
-    if (contacts_[k].law == ContactLaw::length) {
+    if (contacts_[k].law == ContactLaw::length && !contacts_[k].sews) {
       now.open = std::max(now.open, residual / (length_share * contacts_[k].most_open));
     } else {
       now.residual = std::max(now.residual, residual);
@@ -307,7 +311,7 @@ std::vector<HeldDirection> ContactSolver::held_directions() const {
     const auto hold = [&](const Eigen::Vector3d& u) {
       const double stiffness = u.dot(response.stiffness * u);
       if (stiffness < least_held * contact.stiffness) return;
-      held.push_back({static_cast<int>(k), u, stiffness + contact.stiffness / stiffness_ratio(exact_)});
+      held.push_back({static_cast<int>(k), u, stiffness + contact.stiffness / relative_stiffness});
     };
     if (contact.welds) {
       for (int axis = 0; axis < 3; ++axis) hold(Eigen::Vector3d::Unit(axis));
@@ -431,7 +435,7 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     const bool at_a_change = problem.exact() || accuracy.rule == StoppingRule::change;
     const bool balanced = by_gradient ? norm(system_.threads, gradient_) <= accuracy.tolerance
                                       : now.error <= tolerance || (settled && at_a_change);
-    report.converged = balanced && now.residual <= contact_share * tolerance && now.open <= 1 && !now.collides;
+    report.converged = balanced && now.residual <= gap_share * tolerance && now.open <= 1 && !now.collides;
     if (report.converged || report.iterations >= std::min(most_iterations, most_useful) || !std::isfinite(now.value))
       break;
     const double before = std::exchange(steepness, norm(system_.threads, gradient_));

@@ -46,10 +46,10 @@ class ContactSolver {
   /// Returns true if a cloth that moves straight to `target` passes through anything.
   [[nodiscard]] bool collides(const Vertices& target);
 
-  /// Moves the point, given with g's value and gradient, to the minimum under the contacts. Gaps and slips of active
-  /// contacts are within the tolerance. The default tolerance is a hundredth of the largest vertex displacement due to
-  /// forces in the step, if that is larger. If features still collide at the end, the step is shortened
-  /// along its straight path until none do. It then counts as not converged.
+  /// Moves the point, given with g's value and gradient, to the minimum under the contacts. Slips of active contacts
+  /// are within the tolerance, and gaps within a fifth of it. The default tolerance is a hundredth of the largest
+  /// vertex displacement due to forces in the step, if that is larger. If features still collide at the end, the step
+  /// is shortened along its straight path until none do. It then counts as not converged.
   StepReport solve(ContactProblem& problem, const Accuracy& accuracy, int most_iterations, Iterate& point);
 
   /// Moves the starting point to the positions reached at constant velocities, or to the start of the step, if the
@@ -101,7 +101,7 @@ class ContactSolver {
     Eigen::Vector3d force;      // [N]
     Eigen::Matrix3d stiffness;  // with respect to d [N/m]
     double energy = 0;          // share of the augmented function [J]
-    double residual = 0;        // |f − r|/κ [m]
+    double residual = 0;        // of f − r, relative to κ; slips count by their share of a gap [m]
     bool sticks = false;
   };
   /// Values at a point; the gradient of the augmented function is in gradient_.
@@ -124,7 +124,8 @@ class ContactSolver {
   [[nodiscard]] static Response respond_to_length(const ContactConstraint& contact, const Vertices& x);
   /// Sets κ of new contacts.
   void set_stiffness(const ContactProblem& problem);
-  /// Sets the friction limits of new contacts, or of all.
+  /// Sets the friction limits of new contacts, or of all. Features that meet rub from the first change of multipliers
+  /// on.
   void find_radii(const Vertices& x, bool all);
   PointStatus assess(const ContactProblem& problem, const Iterate& point);
   /// Returns the work of a force that separates features which began too near, if their source does [J].

@@ -62,6 +62,7 @@ void SeamContacts::find(const Vertices& target, int source, const std::vector<Co
       contact.sews = true;
       contact.welds = length == 0;
       if (!contact.welds) {
+        contact.law = ContactLaw::length;
         const Eigen::Vector3d way = contact.gather(target);
         const bool pulls = std::ranges::binary_search(held, contact.key, {}, &ContactConstraint::key);
         if (!(way.norm() > length) && !pulls) continue;

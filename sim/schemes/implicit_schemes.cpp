@@ -157,10 +157,8 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   state.contact_forces.clear();
   // An unconverged solve does not determine a bounce well enough to give it energy. A bounce changes the velocity after
   // the step, and no filter moves the cloth by it.
-  if (touched_ && report.converged) {
-    contact_->rebound(instantaneous_, state.v);
-    state.contact_forces = contact_->forces();
-  }
+  if (touched_ && report.converged) contact_->rebound(instantaneous_, state.v);
+  if (touched_) state.contact_forces = contact_->forces();
   system_.correct(state);
   return report;
 }
