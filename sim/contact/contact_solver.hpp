@@ -101,7 +101,7 @@ class ContactSolver {
     Eigen::Vector3d force;      // [N]
     Eigen::Matrix3d stiffness;  // with respect to d [N/m]
     double energy = 0;          // share of the augmented function [J]
-    double residual = 0;        // of f − r, relative to κ; slips count by their share of a gap [m]
+    double residual = 0;        // |f − r|/κ along n, or gap_share times that across it if larger [m]
     bool sticks = false;
   };
   /// Values at a point; the gradient of the augmented function is in gradient_.

@@ -64,7 +64,7 @@ TEST_P(Contact, ASlidingVertexIsStoppedAndNotTurnedBack) {
   SimulationSettings s = settings(resting_on(0), 0.01);
   s.cloth.velocities.row(0) << 1, -1, 0;
   s.effects.add(slope(0, 0.4));
-  s.integrator.tolerance = 1e-14;  // it limits a slip, here 1e-12 m/s · h
+  s.integrator.tolerance = 1e-14;  // [m] limits a slip in a step, 1e-12 m/s · h
   Simulation simulation(s);
   const double stop = std::sqrt(2.0) / (0.4 * g);  // [s]
   for (int step = 0; step < 20; ++step) simulation.step();
