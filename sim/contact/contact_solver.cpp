@@ -35,6 +35,14 @@ constexpr int most_useful = 150;  // iterations; a step that needs more rarely c
 
 double longest(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }
 
+/// Returns true if the features begin the step at the contact's distance or nearer.
+bool begins_closed(const ContactConstraint& contact) {
+  return contact.start.dot(contact.normal) < (1 + begins_on) * contact.distance;
+}
+
+/// Returns true for an edge at its strain limit: it has a tolerance of its own, and touches nothing.
+bool limits_strain(const ContactConstraint& contact) { return contact.law == ContactLaw::length && !contact.sews; }
+
 }  // namespace
 
 ContactSolver::ContactSolver(const System& system)
@@ -96,8 +104,7 @@ std::vector<ContactForce> ContactSolver::forces() const {
       forces.push_back(force);
       continue;
     }
-    const double gap = contact.start.dot(contact.normal);
-    if (!exact_ || contact.welds || contact.friction <= 0 || gap >= (1 + begins_on) * contact.distance) continue;
+    if (!exact_ || contact.welds || contact.friction <= 0 || !begins_closed(contact)) continue;
     forces.push_back(force);
   }
   return forces;
@@ -123,10 +130,9 @@ bool ContactSolver::touches(const Vertices& target) {
 bool ContactSolver::is_blocked(const Vertices& target) {
   find(target, true);
   return std::ranges::any_of(contacts_, [&](const ContactConstraint& contact) {
-    if (contact.law == ContactLaw::length && !contact.sews) return false;
-    const double lies = (1 + begins_on) * contact.distance;
+    if (limits_strain(contact)) return false;
     return contact.collides || contact.welds || contact.place(target).dot(contact.normal) < contact.distance ||
-           contact.start.dot(contact.normal) < lies;
+           begins_closed(contact);
   });
 }
 
@@ -259,8 +265,7 @@ void ContactSolver::find_radii(const Vertices& x, bool all) {
   for (ContactConstraint& contact : contacts_) {
     if (!all && contact.radius >= 0) continue;
     // The first depth of features that meet in the step says little of their force.
-    const bool meets = contact.start.dot(contact.normal) > (1 + begins_on) * contact.distance;
-    if (!all && meets && contact.force.isZero(0)) {
+    if (!all && !begins_closed(contact) && contact.force.isZero(0)) {
       contact.radius = 0;
       continue;
     }
@@ -278,7 +283,7 @@ ContactSolver::PointStatus ContactSolver::assess(const ContactProblem& problem, 
     contacts_[k].scatter(-responses_[k].force, gradient_);
     now.value += responses_[k].energy;
     const double residual = responses_[k].residual;
-    if (contacts_[k].law == ContactLaw::length && !contacts_[k].sews) {
+    if (limits_strain(contacts_[k])) {
       now.open = std::max(now.open, residual / (length_share * contacts_[k].most_open));
     } else {
       now.residual = std::max(now.residual, residual);

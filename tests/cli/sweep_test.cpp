@@ -116,12 +116,14 @@ TEST(SweepCommand, RefusesInOneMessageWithExitCode2) {
   EXPECT_NE(message("sweep --report-only -o none").find("contains no sweep"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder.path("out")));
 
-  // A folder of another program's version is not resumed, and stays unchanged.
+  // A report is of the scene that is named.
   ASSERT_EQ(drape(folder, "sweep a.toml -o out --steps 1 --quiet").code, 0);
   folder.write("b.toml", test::content(folder.path("a.toml")));
   EXPECT_NE(message("sweep b.toml -o out --report-only").find("out contains another sweep: drape sweep a.toml"),
             std::string::npos);
   EXPECT_EQ(drape(folder, "sweep a.toml -o out --report-only --quiet").code, 0);
+
+  // A folder of another program's version is not resumed, and stays unchanged.
   std::string json = test::content(folder.path("out/sweep.json"));
   json.replace(json.find("revision "), 9, "revision x");
   json = sealed_json(nlohmann::ordered_json::parse(json), 1);
